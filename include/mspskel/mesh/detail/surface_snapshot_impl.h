@@ -1,0 +1,140 @@
+#pragma once
+
+#include <algorithm>
+
+namespace mspskel {
+namespace detail {
+
+inline double angle_between(const Vector3& a, const Vector3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
+
+// The extent of the model by a double sweep: the vertex farthest from the centroid, then the one farthest from that.
+// It turns with the model, unlike a bounding box, and is at least half the largest distance between two vertices.
+inline double extent(const std::vector<Vector3>& points, const Vector3& centroid) {
+  const auto farthest = [&](const Vector3& from) {
+    return *std::max_element(points.begin(), points.end(), [&](const Vector3& a, const Vector3& b) {
+      return (a - from).squaredNorm() < (b - from).squaredNorm();
+    });
+  };
+  const Vector3 end = farthest(centroid);
+  return (farthest(end) - end).norm();
+}
+
+inline void normalise(SurfaceSnapshot& s) {
+  for (std::size_t v = 0; v < s.position.size(); ++v)
+    if (!s.position[v].allFinite())
+      throw MeshError("vertex " + std::to_string(v) + " has a coordinate that is not finite");
+  // A first shift keeps the centroid's rounding small for models far from the origin.
+  const Vector3 shift = s.position[static_cast<std::size_t>(s.origin[0])];
+  Vector3 weighted = Vector3::Zero();
+  double area = 0;
+  for (Index f = 0; f < s.face_count(); ++f) {
+    const Vector3 a = s.position[s.origin[3 * f]] - shift, b = s.position[s.origin[3 * f + 1]] - shift,
+                  c = s.position[s.origin[3 * f + 2]] - shift;
+    const double twice = (b - a).cross(c - a).norm();
+    area += twice;
+    weighted += twice * (a + b + c) / 3.0;
+  }
+  if (!(area > 0) || !std::isfinite(area)) throw MeshError("the surface has no area, or coordinates too large to measure it");
+  s.frame.origin = shift + weighted / area;
+  s.frame.scale = extent(s.position, s.frame.origin);
+  for (Vector3& p : s.position) p = s.frame.to_normalised(p);
+}
+
+// Angle-weighted vertex normals, barycentric vertex areas.
+inline void measure_vertices(SurfaceSnapshot& s) {
+  s.normal.assign(s.position.size(), Vector3::Zero());
+  s.vertex_area.assign(s.position.size(), 0.0);
+  for (Index f = 0; f < s.face_count(); ++f) {
+    const Vector3 n = s.face_normal_times_twice_area(f);
+    const double twice = n.norm();
+    for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+      const Vector3& p = s.position[s.origin[h]];
+      s.vertex_area[s.origin[h]] += twice / 6.0;
+      if (twice > 0) s.normal[s.origin[h]] += angle_between(s.position[s.target(h)] - p, s.position[s.apex(h)] - p) / twice * n;
+    }
+  }
+  for (std::size_t v = 0; v < s.normal.size(); ++v) {
+    const double length = s.normal[v].norm();
+    // All faces at v are degenerate or cancel out: any direction serves, slices there are rejected on their merits.
+    s.normal[v] = length > 0 ? Vector3(s.normal[v] / length) : Vector3::UnitX();
+  }
+}
+
+inline void number_components(SurfaceSnapshot& s) {
+  s.component.assign(s.position.size(), kNone);
+  std::vector<Index> stack;
+  for (Index seed = 0; seed < s.vertex_count(); ++seed) {
+    if (s.component[seed] != kNone || s.vertex_halfedge[seed] == kNone) continue;
+    s.component[seed] = s.component_count;
+    stack.push_back(seed);
+    while (!stack.empty()) {
+      const Index first = s.vertex_halfedge[stack.back()];
+      stack.pop_back();
+      Index h = first;
+      do {
+        const Index w = s.target(h);
+        if (s.component[w] == kNone) {
+          s.component[w] = s.component_count;
+          stack.push_back(w);
+        }
+        h = s.next_outgoing(h);
+      } while (h != first);
+    }
+    ++s.component_count;
+  }
+}
+
+inline void check_vertex_fans(const SurfaceSnapshot& s) {
+  std::vector<Index> fan(s.position.size(), 0), incident(s.position.size(), 0);
+  for (Index h = 0; h < s.halfedge_count(); ++h) ++incident[s.origin[h]];
+  for (Index v = 0; v < s.vertex_count(); ++v) {
+    const Index first = s.vertex_halfedge[v];
+    if (first == kNone) continue;
+    Index h = first;
+    do {
+      ++fan[v];
+      h = s.next_outgoing(h);
+    } while (h != first && fan[v] <= incident[v]);
+    if (fan[v] != incident[v]) throw MeshError("several fans of faces meet at vertex " + std::to_string(v));
+  }
+}
+
+}  // namespace detail
+
+template <class Mesh>
+SurfaceSnapshot make_snapshot(const Mesh& mesh) {
+  SurfaceSnapshot s;
+  if (mesh.n_faces() == 0) throw MeshError("the mesh has no faces");
+  if (mesh.n_faces() > static_cast<std::size_t>(700'000'000)) throw MeshError("the mesh has more than 700 million faces");
+  s.position.resize(mesh.n_vertices());
+  for (const auto v : mesh.vertices()) s.position[static_cast<std::size_t>(v.idx())] = to_vector3(mesh.point(v));
+  s.origin.resize(3 * mesh.n_faces());
+  s.twin.assign(3 * mesh.n_faces(), kNone);
+  s.vertex_halfedge.assign(mesh.n_vertices(), kNone);
+
+  std::vector<Index> flat(mesh.n_halfedges(), kNone);  // OpenMesh half-edge -> flat half-edge
+  for (const auto f : mesh.faces()) {
+    Index h = 3 * static_cast<Index>(f.idx());
+    for (auto it = mesh.cfh_iter(f); it.is_valid(); ++it, ++h) {
+      flat[static_cast<std::size_t>(it->idx())] = h;
+      s.origin[h] = static_cast<Index>(mesh.from_vertex_handle(*it).idx());
+      if (s.vertex_halfedge[s.origin[h]] == kNone) s.vertex_halfedge[s.origin[h]] = h;
+    }
+  }
+  for (const auto e : mesh.edges()) {
+    const auto h0 = mesh.halfedge_handle(e, 0), h1 = mesh.halfedge_handle(e, 1);
+    const Index a = flat[static_cast<std::size_t>(h0.idx())], b = flat[static_cast<std::size_t>(h1.idx())];
+    if (a == kNone || b == kNone)
+      throw MeshError("the mesh is not closed: edge " + std::to_string(mesh.from_vertex_handle(h0).idx()) + "-" +
+                      std::to_string(mesh.to_vertex_handle(h0).idx()) + " has fewer than two faces");
+    s.twin[a] = b;
+    s.twin[b] = a;
+  }
+  detail::check_vertex_fans(s);
+  detail::normalise(s);
+  detail::measure_vertices(s);
+  detail::number_components(s);
+  return s;
+}
+
+}  // namespace mspskel
