@@ -33,7 +33,7 @@ struct NormalisedFrame {
 struct SurfaceSnapshot {
   NormalisedFrame frame;
   std::vector<Vector3> position;          // per vertex
-  std::vector<Vector3> normal;            // per vertex, unit, outward, weighted by angle (ALGORITHM reading 2)
+  std::vector<Vector3> normal;            // per vertex, unit, outward, weighted by angle
   std::vector<double> vertex_area;        // per vertex: a third of the incident face areas; sums to the surface's area
   std::vector<Index> origin;              // per half-edge
   std::vector<Index> twin;                // per half-edge
