@@ -16,8 +16,8 @@
 
 namespace mspskel {
 
-// Called from the thread that runs the stage, never concurrently: the stage's name and the share done, 0 to 1.
-// Return false to cancel; the stage then throws Cancelled and leaves nothing behind.
+// Called from the thread that runs the stage, never concurrently: the stage's name and the share done, 0
+// to 1. Return false to cancel; the stage then throws Cancelled and leaves nothing behind.
 using ProgressCallback = std::function<bool(const char* stage, double fraction)>;
 
 // Throws Cancelled if the callback asks to stop. An empty callback is fine.
@@ -40,11 +40,12 @@ inline int thread_count(const Execution& execution) {
 #endif
 }
 
-// Calls body(i, state) for i in [0, count), each i once; `state` is one value of make_state() a thread (scratch memory).
-// body may only write what belongs to i, so the result does not depend on the number of threads. The first exception
-// is rethrown. The callback is asked every `grain` items of the calling thread.
+// Calls body(i, state) for i in [0, count), each i once; `state` is one value of make_state() a thread
+// (scratch memory). body may only write what belongs to i, so the result does not depend on the number of
+// threads. The first exception is rethrown. The callback is asked every `grain` items of the calling thread.
 template <class MakeState, class Body>
-void parallel_for(Index count, const char* stage, const Execution& execution, MakeState make_state, Body body) {
+void parallel_for(Index count, const char* stage, const Execution& execution, MakeState make_state,
+                  Body body) {
   constexpr Index kGrain = 16;
   std::atomic<bool> stop{false};
   std::exception_ptr failure;

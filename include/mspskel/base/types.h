@@ -8,7 +8,8 @@
 
 namespace mspskel {
 
-// Positions and directions. Three doubles are no fixed-size vectorisable Eigen type, so they are safe in public structs.
+// Positions and directions. Three doubles are no fixed-size vectorisable Eigen type, so they are safe in
+// public structs.
 using Vector3 = Eigen::Vector3d;
 
 // Vertices, half-edges, faces, nodes. 32 bits hold 2^31 half-edges, that is meshes of 700 million faces.

@@ -24,8 +24,8 @@ struct CurveSkeleton {
   std::vector<Index> node_of_vertex;
 };
 
-// A branch (arc): a maximal chain of edges whose inner nodes have exactly two neighbours. A closed chain without
-// any joint starts and ends at its smallest node.
+// A branch (arc): a maximal chain of edges whose inner nodes have exactly two neighbours. A closed chain
+// without any joint starts and ends at its smallest node.
 struct Branch {
   std::vector<Index> nodes;  // ends included
 };

@@ -1,4 +1,5 @@
-// The mesh type that the compiled library is instantiated for: an OpenMesh triangle mesh with double coordinates.
+// The mesh type that the compiled library is instantiated for: an OpenMesh triangle mesh with double
+// coordinates.
 #pragma once
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>

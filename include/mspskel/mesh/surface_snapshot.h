@@ -32,13 +32,14 @@ struct NormalisedFrame {
 // Lengths are in the normalised frame: the area-weighted centroid is the origin, the model's extent is 1.
 struct SurfaceSnapshot {
   NormalisedFrame frame;
-  std::vector<Vector3> position;          // per vertex
-  std::vector<Vector3> normal;            // per vertex, unit, outward, weighted by angle
-  std::vector<double> vertex_area;        // per vertex: a third of the incident face areas; sums to the surface's area
-  std::vector<Index> origin;              // per half-edge
-  std::vector<Index> twin;                // per half-edge
-  std::vector<Index> vertex_halfedge;     // per vertex: one outgoing half-edge; kNone for an isolated vertex
-  std::vector<Index> component;           // per vertex: connected component, numbered by first vertex
+  std::vector<Vector3> position;  // per vertex
+  std::vector<Vector3> normal;    // per vertex, unit, outward, weighted by angle
+  std::vector<double>
+      vertex_area;            // per vertex: a third of the incident face areas; sums to the surface's area
+  std::vector<Index> origin;  // per half-edge
+  std::vector<Index> twin;    // per half-edge
+  std::vector<Index> vertex_halfedge;  // per vertex: one outgoing half-edge; kNone for an isolated vertex
+  std::vector<Index> component;        // per vertex: connected component, numbered by first vertex
   Index component_count = 0;
 
   Index vertex_count() const { return static_cast<Index>(position.size()); }
@@ -54,13 +55,15 @@ struct SurfaceSnapshot {
   Index next_outgoing(Index h) const { return twin[prev(h)]; }
 
   Vector3 face_normal_times_twice_area(Index f) const {
-    const Vector3 &a = position[origin[3 * f]], &b = position[origin[3 * f + 1]], &c = position[origin[3 * f + 2]];
+    const Vector3 &a = position[origin[3 * f]], &b = position[origin[3 * f + 1]],
+                  &c = position[origin[3 * f + 2]];
     return (b - a).cross(c - a);
   }
 };
 
 // Copies any OpenMesh triangle mesh. Cost: O(faces).
-// Throws MeshError if the mesh is empty, not closed, has a vertex where two fans meet, or a coordinate that is not finite.
+// Throws MeshError if the mesh is empty, not closed, has a vertex where two fans meet, or a coordinate that
+// is not finite.
 template <class Mesh>
 SurfaceSnapshot make_snapshot(const Mesh& mesh);
 

@@ -69,7 +69,8 @@ inline GraphCounts count_graph(const CurveSkeleton& skeleton) {
   }
   counts.cycles = counts.edges - counts.nodes + counts.components;
   counts.leaves = static_cast<Index>(std::count(degree.begin(), degree.end(), 1));
-  counts.joints = static_cast<Index>(std::count_if(degree.begin(), degree.end(), [](Index d) { return d >= 3; }));
+  counts.joints =
+      static_cast<Index>(std::count_if(degree.begin(), degree.end(), [](Index d) { return d >= 3; }));
   return counts;
 }
 

@@ -5,10 +5,13 @@
 namespace mspskel {
 namespace detail {
 
-inline double angle_between(const Vector3& a, const Vector3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
+inline double angle_between(const Vector3& a, const Vector3& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
 
-// The extent of the model by a double sweep: the vertex farthest from the centroid, then the one farthest from that.
-// It turns with the model, unlike a bounding box, and is at least half the largest distance between two vertices.
+// The extent of the model by a double sweep: the vertex farthest from the centroid, then the one farthest
+// from that. It turns with the model, unlike a bounding box, and is at least half the largest distance
+// between two vertices.
 inline double extent(const std::vector<Vector3>& points, const Vector3& centroid) {
   const auto farthest = [&](const Vector3& from) {
     return *std::max_element(points.begin(), points.end(), [&](const Vector3& a, const Vector3& b) {
@@ -34,7 +37,8 @@ inline void normalise(SurfaceSnapshot& s) {
     area += twice;
     weighted += twice * (a + b + c) / 3.0;
   }
-  if (!(area > 0) || !std::isfinite(area)) throw MeshError("the surface has no area, or coordinates too large to measure it");
+  if (!(area > 0) || !std::isfinite(area))
+    throw MeshError("the surface has no area, or coordinates too large to measure it");
   s.frame.origin = shift + weighted / area;
   s.frame.scale = extent(s.position, s.frame.origin);
   for (Vector3& p : s.position) p = s.frame.to_normalised(p);
@@ -50,12 +54,15 @@ inline void measure_vertices(SurfaceSnapshot& s) {
     for (Index h = 3 * f; h < 3 * f + 3; ++h) {
       const Vector3& p = s.position[s.origin[h]];
       s.vertex_area[s.origin[h]] += twice / 6.0;
-      if (twice > 0) s.normal[s.origin[h]] += angle_between(s.position[s.target(h)] - p, s.position[s.apex(h)] - p) / twice * n;
+      if (twice > 0)
+        s.normal[s.origin[h]] +=
+            angle_between(s.position[s.target(h)] - p, s.position[s.apex(h)] - p) / twice * n;
     }
   }
   for (std::size_t v = 0; v < s.normal.size(); ++v) {
     const double length = s.normal[v].norm();
-    // All faces at v are degenerate or cancel out: any direction serves, slices there are rejected on their merits.
+    // All faces at v are degenerate or cancel out: any direction serves, slices there are rejected on their
+    // merits.
     s.normal[v] = length > 0 ? Vector3(s.normal[v] / length) : Vector3::UnitX();
   }
 }
@@ -105,9 +112,11 @@ template <class Mesh>
 SurfaceSnapshot make_snapshot(const Mesh& mesh) {
   SurfaceSnapshot s;
   if (mesh.n_faces() == 0) throw MeshError("the mesh has no faces");
-  if (mesh.n_faces() > static_cast<std::size_t>(700'000'000)) throw MeshError("the mesh has more than 700 million faces");
+  if (mesh.n_faces() > static_cast<std::size_t>(700'000'000))
+    throw MeshError("the mesh has more than 700 million faces");
   s.position.resize(mesh.n_vertices());
-  for (const auto v : mesh.vertices()) s.position[static_cast<std::size_t>(v.idx())] = to_vector3(mesh.point(v));
+  for (const auto v : mesh.vertices())
+    s.position[static_cast<std::size_t>(v.idx())] = to_vector3(mesh.point(v));
   s.origin.resize(3 * mesh.n_faces());
   s.twin.assign(3 * mesh.n_faces(), kNone);
   s.vertex_halfedge.assign(mesh.n_vertices(), kNone);
@@ -125,8 +134,8 @@ SurfaceSnapshot make_snapshot(const Mesh& mesh) {
     const auto h0 = mesh.halfedge_handle(e, 0), h1 = mesh.halfedge_handle(e, 1);
     const Index a = flat[static_cast<std::size_t>(h0.idx())], b = flat[static_cast<std::size_t>(h1.idx())];
     if (a == kNone || b == kNone)
-      throw MeshError("the mesh is not closed: edge " + std::to_string(mesh.from_vertex_handle(h0).idx()) + "-" +
-                      std::to_string(mesh.to_vertex_handle(h0).idx()) + " has fewer than two faces");
+      throw MeshError("the mesh is not closed: edge " + std::to_string(mesh.from_vertex_handle(h0).idx()) +
+                      "-" + std::to_string(mesh.to_vertex_handle(h0).idx()) + " has fewer than two faces");
     s.twin[a] = b;
     s.twin[b] = a;
   }

@@ -1,0 +1,108 @@
+// The slice error E_s (Eq. 3.2): how much the slices of the points on a slice disagree with it in direction.
+#pragma once
+
+#include <algorithm>
+
+#include "mspskel/base/progress.h"
+#include "mspskel/slice/vertex_slices.h"
+
+namespace mspskel {
+
+enum class SliceErrorAverage {
+  kMean,     // over the contour's points
+  kSum,      // Eq. 3.2 as printed
+  kArcMean,  // over the contour's length: independent of tessellation
+};
+enum class SliceErrorScale {
+  kMinMax,      // (E − E_min) / (E_max − E_min) over the mesh (Eq. 4.3)
+  kRightAngle,  // E / (π/2), clamped to 1: one outlier cannot shift it
+};
+
+struct SliceErrorOptions {
+  SliceErrorAverage average = SliceErrorAverage::kArcMean;
+  SliceErrorScale scale = SliceErrorScale::kRightAngle;
+};
+
+namespace detail {
+
+// Plane normals have no sign, so the angle between two is at most a right angle.
+inline double axis_angle(const Vector3& a, const Vector3& b) {
+  return std::acos(std::min(1.0, std::abs(a.dot(b))));
+}
+
+// E_s(v) before normalisation, in radians (a sum of radians for kSum). The angle at a crossing is that at the
+// edge's ends, weighted by the crossing's position; an end without a slice leaves the word to the other.
+inline double raw_slice_error(const SurfaceSnapshot& surface, const VertexSlices& slices, Index v,
+                              const Contour& contour, SliceErrorAverage average) {
+  const Vector3& n = slices.normal[v];
+  const std::size_t count = contour.point.size();
+  double sum = 0, weight = 0, length = 0;
+  double first = 0, previous = 0;
+  Index counted = 0;
+  bool at_vertex = false;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Index a = surface.origin[contour.halfedge[i]], b = surface.target(contour.halfedge[i]);
+    const double wb = slices.valid[b] ? contour.weight[i] : 0.0,
+                 wa = slices.valid[a] ? 1.0 - contour.weight[i] : 0.0;
+    const double angle = wa + wb > 0 ? (wa * (wa > 0 ? axis_angle(n, slices.normal[a]) : 0.0) +
+                                        wb * (wb > 0 ? axis_angle(n, slices.normal[b]) : 0.0)) /
+                                           (wa + wb)
+                                     : kPi / 2;
+    // The contour meets every edge of its fan at v in v itself: one point of the slice.
+    if (b != v || !at_vertex) {
+      sum += angle;
+      ++counted;
+    }
+    at_vertex = at_vertex || b == v;
+    if (i > 0) {
+      length = (contour.point[i] - contour.point[i - 1]).norm();
+      weight += length * 0.5 * (angle + previous);
+    } else {
+      first = angle;
+    }
+    previous = angle;
+  }
+  weight += (contour.point.front() - contour.point.back()).norm() * 0.5 * (first + previous);
+  switch (average) {
+    case SliceErrorAverage::kMean:
+      return sum / counted;
+    case SliceErrorAverage::kSum:
+      return sum;
+    case SliceErrorAverage::kArcMean:
+      return weight / contour.perimeter;
+  }
+  return 0;
+}
+
+}  // namespace detail
+
+// Fills slices.error of every vertex with a slice. Cost: one trace a vertex. Throws Cancelled.
+inline void compute_slice_errors(const SliceTracer& tracer, const SliceErrorOptions& options,
+                                 VertexSlices& slices, const Execution& execution = {}) {
+  const SurfaceSnapshot& surface = tracer.surface();
+  std::vector<std::int64_t> steps(surface.vertex_count(), 0);
+  parallel_for(
+      surface.vertex_count(), "slice error", execution, [] { return Contour(); },
+      [&](Index v, Contour& contour) {
+        if (!slices.valid[v] || !tracer.shortest_contour(v, slices.normal[v], contour, steps[v])) return;
+        slices.error[v] = detail::raw_slice_error(surface, slices, v, contour, options.average);
+      });
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (Index v = 0; v < surface.vertex_count(); ++v) {
+    slices.steps += steps[v];
+    if (!slices.valid[v]) continue;
+    low = std::min(low, slices.error[v]);
+    high = std::max(high, slices.error[v]);
+  }
+  for (Index v = 0; v < surface.vertex_count(); ++v) {
+    if (!slices.valid[v]) {
+      slices.error[v] = 1.0;
+    } else if (options.scale == SliceErrorScale::kMinMax) {
+      slices.error[v] = high > low ? (slices.error[v] - low) / (high - low) : 0.0;
+    } else {
+      slices.error[v] = std::min(1.0, slices.error[v] / (kPi / 2));
+    }
+  }
+}
+
+}  // namespace mspskel

@@ -1,0 +1,44 @@
+// One slice a vertex: what the slice stages fill in and every later stage reads.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mspskel/base/types.h"
+#include "mspskel/slice/trace_contour.h"
+
+namespace mspskel {
+
+// Structure of arrays, one entry a vertex, lengths in the normalised frame. A vertex without any valid slice
+// has valid = 0, perimeter 0, normal and centre zero, error 1: weight 0 wherever slices are averaged.
+struct VertexSlices {
+  std::vector<double> perimeter;      // MSP(v)
+  std::vector<Vector3> normal;        // N_S(v), unit, of either sign
+  std::vector<Vector3> centre;        // of the contour, by arc length
+  std::vector<double> error;          // E_s(v), normalised to [0, 1] (Eq. 3.2, 4.3)
+  std::vector<Index> contour_points;  // crossings on the contour
+  std::vector<std::uint8_t> valid;
+  std::vector<std::uint8_t> refined;  // the cone refinement looked for a better slice here
+
+  // Work done, summed over vertices: planes tried, edges crossed.
+  std::int64_t slices = 0;
+  std::int64_t steps = 0;
+
+  void resize(Index n) {
+    perimeter.assign(n, 0.0);
+    normal.assign(n, Vector3::Zero());
+    centre.assign(n, Vector3::Zero());
+    error.assign(n, 1.0);
+    contour_points.assign(n, 0);
+    valid.assign(n, 0);
+    refined.assign(n, 0);
+  }
+};
+
+// The contour of v's slice; false if v has none.
+inline bool slice_contour(const SliceTracer& tracer, const VertexSlices& slices, Index v, Contour& contour) {
+  std::int64_t steps = 0;
+  return slices.valid[v] && tracer.shortest_contour(v, slices.normal[v], contour, steps);
+}
+
+}  // namespace mspskel
