@@ -1,0 +1,13 @@
+# Every public header compiles alone: one generated source per header that includes nothing else.
+file(GLOB_RECURSE public_headers RELATIVE ${PROJECT_SOURCE_DIR}/include CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/include/*.h)
+list(FILTER public_headers EXCLUDE REGEX "/detail/")
+foreach(header ${public_headers})
+  string(MAKE_C_IDENTIFIER ${header} name)
+  set(source ${CMAKE_CURRENT_BINARY_DIR}/headers/${name}.cpp)
+  file(CONFIGURE OUTPUT ${source} CONTENT "#include \"${header}\"\n")
+  list(APPEND header_sources ${source})
+endforeach()
+add_library(mspskel_public_headers OBJECT ${header_sources})
+target_link_libraries(mspskel_public_headers PRIVATE mspskel_header_only)
+target_compile_options(mspskel_public_headers PRIVATE -O0)
+mspskel_target_warnings(mspskel_public_headers)

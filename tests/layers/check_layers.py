@@ -1,0 +1,52 @@
+#!/usr/bin/env python3
+"""Checks that each header includes only files of its own folder and of folders above it in LAYERS.
+
+usage: check_layers.py SOURCE_DIR
+"""
+import pathlib
+import re
+import sys
+
+LAYERS = ["base", "mesh", "slice", "center", "collapse", "graph", "io", "samples", "render"]
+TOP = len(LAYERS)  # headers directly in include/mspskel see every folder
+
+
+def layer(path):
+    """The place in LAYERS of 'mspskel/<folder>/...'; None for a folder that the list does not know."""
+    parts = path.split("/")
+    if len(parts) == 2:
+        return TOP
+    return LAYERS.index(parts[1]) if parts[1] in LAYERS else None
+
+
+def violations(root):
+    include = root / "include"
+    for header in sorted(include.rglob("*.h")):
+        name = header.relative_to(include).as_posix()
+        own = layer(name)
+        if own is None:
+            yield f"{name}: the folder has no place among {', '.join(LAYERS)}"
+            continue
+        for number, line in enumerate(header.read_text(encoding="utf-8").splitlines(), 1):
+            match = re.match(r'\s*#\s*include\s*[<"]((?:mspskel/)?[^">]*)[">]', line)
+            if match is None:
+                continue
+            target = match.group(1)
+            if target.startswith("CGAL/"):
+                yield f"{name}:{number}: public headers are free of CGAL, not {target}"
+            if target.startswith("mspskel/"):
+                seen = layer(target)
+                if seen is None or seen > own:
+                    yield f"{name}:{number}: may not include {target}"
+            elif (header.parent / target).exists():
+                yield f"{name}:{number}: include {target} by its full name, mspskel/..."
+
+
+def main():
+    found = list(violations(pathlib.Path(sys.argv[1])))
+    print("\n".join(found) if found else "every header includes only its own folder and those above")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

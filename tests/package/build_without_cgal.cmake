@@ -1,0 +1,20 @@
+# Builds SOURCE_DIR in WORK_DIR with MSPSKEL_WITH_CGAL=OFF and fails if any object was made from a CGAL header.
+# Unoptimised, since nothing is run but --version. Ninja keeps the dependencies in one place, so it is asked for by name.
+function(run result)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT status EQUAL 0)
+    message(FATAL_ERROR "${ARGN}\n${output}")
+  endif()
+  set(${result} "${output}" PARENT_SCOPE)
+endfunction()
+run(output ${CMAKE_COMMAND} -S ${SOURCE_DIR} -B ${WORK_DIR} -G Ninja -DCMAKE_CXX_COMPILER=${CXX_COMPILER}
+  -DCMAKE_BUILD_TYPE=Plain -DMSPSKEL_WITH_CGAL=OFF -DCMAKE_DISABLE_FIND_PACKAGE_CGAL=ON -DMSPSKEL_BUILD_TESTS=OFF)
+run(output ${CMAKE_COMMAND} --build ${WORK_DIR})
+find_program(ninja NAMES ninja ninja-build REQUIRED)
+run(dependencies ${ninja} -C ${WORK_DIR} -t deps)
+if(NOT dependencies MATCHES "mspskel/mesh/surface_snapshot.h")
+  message(FATAL_ERROR "no dependencies were recorded, so nothing was checked")
+endif()
+if(dependencies MATCHES "[^\n]*/CGAL/[^\n]*")
+  message(FATAL_ERROR "reached: ${CMAKE_MATCH_0}")
+endif()
