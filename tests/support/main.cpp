@@ -1,9 +1,10 @@
-// Catch2 2.13 has no SKIP: a test that cannot run here calls skip(why), and the process ends with 77 unless something failed.
+// Catch2 2.13 has no SKIP: a test that cannot run here calls skip(why), and the process ends with 77 unless
+// something failed.
 #define CATCH_CONFIG_RUNNER
-#include "support/skip.h"
-
 #include <catch2/catch.hpp>
 #include <iostream>
+
+#include "support/skip.h"
 
 namespace mspskel::test {
 namespace {

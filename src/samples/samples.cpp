@@ -1,0 +1,169 @@
+#include "mspskel/samples/samples.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "families.h"
+#include "mspskel/base/error.h"
+#include "noise.h"
+
+namespace mspskel {
+
+namespace detail {
+Tessellation tessellation(double area, const SampleOptions& options) {
+  Tessellation t;
+  t.edge = edge_for_vertices(area, options.resolution);
+  t.seed = options.seed;
+  return t;
+}
+}  // namespace detail
+
+namespace {
+using detail::Family;
+
+const std::vector<Family>& families() {
+  static const std::vector<Family> all = [] {
+    std::vector<Family> list = detail::ring_families();
+    std::sort(list.begin(), list.end(),
+              [](const Family& a, const Family& b) { return a.info.name < b.info.name; });
+    return list;
+  }();
+  return all;
+}
+
+// Levenshtein's distance.
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replace = diagonal + (a[i - 1] != b[j - 1]);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replace});
+    }
+  }
+  return row.back();
+}
+
+const Family& find_family(const std::string& name) {
+  const Family* nearest = nullptr;
+  std::size_t best = 0;
+  for (const Family& family : families()) {
+    if (family.info.name == name) return family;
+    const std::size_t distance = edit_distance(family.info.name, name);
+    if (!nearest || distance < best) {
+      best = distance;
+      nearest = &family;
+    }
+  }
+  throw UsageError("no sample is called '" + name + "'; the nearest name is '" + nearest->info.name + "'");
+}
+
+std::string number(double x) {
+  std::string text = std::to_string(x);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
+// Puts the sample's defaults in place of zeros and checks the ranges.
+SampleOptions complete(const SampleInfo& info, SampleOptions options) {
+  constexpr Index kMostVertices = 10'000'000;
+  if (options.resolution == 0) options.resolution = info.resolution;
+  if (options.resolution < info.least_resolution || options.resolution > kMostVertices)
+    throw UsageError("resolution of sample " + info.name + " must lie in [" +
+                     std::to_string(info.least_resolution) + ", " + std::to_string(kMostVertices) + "]");
+  if (!(options.jitter >= 0 && options.jitter <= 0.3)) throw UsageError("jitter must lie in [0, 0.3]");
+  if (options.count != 0 && info.count_of.empty()) throw UsageError("sample " + info.name + " has no count");
+  if (options.count == 0 && options.count < info.least_count) options.count = info.count;
+  if (options.count < info.least_count || options.count > info.most_count)
+    throw UsageError("count of sample " + info.name + " (" + info.count_of + ") must lie in [" +
+                     std::to_string(info.least_count) + ", " + std::to_string(info.most_count) + "]");
+  if (options.ratio != 0 && info.ratio_of.empty()) throw UsageError("sample " + info.name + " has no ratio");
+  if (options.ratio == 0) options.ratio = info.ratio;
+  if (!(options.ratio >= info.least_ratio && options.ratio <= info.most_ratio))
+    throw UsageError("ratio of sample " + info.name + " (" + info.ratio_of + ") must lie in [" +
+                     number(info.least_ratio) + ", " + number(info.most_ratio) + "]");
+  return options;
+}
+
+SampleInfo describe(const Family& family, const SampleOptions& completed) {
+  SampleInfo info = family.info;
+  if (family.adapt) family.adapt(info, completed);
+  return info;
+}
+
+double mean_edge(const PolygonSoup& soup) {
+  double sum = 0;
+  for (std::size_t c = 0; c < soup.corners.size(); c += 3)
+    for (std::size_t k = 0; k < 3; ++k)
+      sum += (soup.points[soup.corners[c + k]] - soup.points[soup.corners[c + (k + 1) % 3]]).norm();
+  return sum / static_cast<double>(soup.corners.size());
+}
+
+void jitter(PolygonSoup& soup, double amount, std::uint64_t seed) {
+  const double reach = amount * mean_edge(soup);
+  for (std::size_t v = 0; v < soup.points.size(); ++v) {
+    Vector3 shift;
+    for (std::uint64_t axis = 0; axis < 3; ++axis)
+      shift[static_cast<Eigen::Index>(axis)] = detail::noise(seed + 77, v, axis);
+    soup.points[v] += reach * shift / std::max(1.0, shift.norm());
+  }
+}
+
+Index find_root(std::vector<Index>& parent, Index v) {
+  while (parent[v] != v) v = parent[v] = parent[parent[v]];
+  return v;
+}
+
+// Closed, manifold along edges, and of the expected Euler characteristic and number of pieces.
+bool has_topology(const PolygonSoup& soup, const SampleInfo& info) {
+  std::vector<std::pair<Index, Index>> half_edges;
+  std::vector<Index> parent(soup.points.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  for (std::size_t c = 0; c < soup.corners.size(); ++c) {
+    const Index a = soup.corners[c], b = soup.corners[c % 3 == 2 ? c - 2 : c + 1];
+    half_edges.emplace_back(a, b);
+    parent[find_root(parent, a)] = find_root(parent, b);
+  }
+  std::sort(half_edges.begin(), half_edges.end());
+  if (std::adjacent_find(half_edges.begin(), half_edges.end()) != half_edges.end()) return false;
+  for (const auto& [a, b] : half_edges)
+    if (!std::binary_search(half_edges.begin(), half_edges.end(), std::make_pair(b, a))) return false;
+  Index pieces = 0;
+  for (Index v = 0; v < static_cast<Index>(parent.size()); ++v) pieces += parent[v] == v;
+  const auto euler = static_cast<std::ptrdiff_t>(soup.points.size()) -
+                     static_cast<std::ptrdiff_t>(half_edges.size() / 2) +
+                     static_cast<std::ptrdiff_t>(soup.polygon_count());
+  return pieces == info.components && euler == 2 * (info.components - info.genus);
+}
+}  // namespace
+
+std::vector<SampleInfo> list_samples() {
+  std::vector<SampleInfo> result;
+  for (const Family& family : families()) result.push_back(describe(family, complete(family.info, {})));
+  return result;
+}
+
+SampleInfo describe_sample(const std::string& name, const SampleOptions& options) {
+  const Family& family = find_family(name);
+  return describe(family, complete(family.info, options));
+}
+
+PolygonSoup make_sample(const std::string& name, const SampleOptions& options) {
+  const Family& family = find_family(name);
+  const SampleOptions completed = complete(family.info, options);
+  PolygonSoup soup = family.make(completed);
+  if (!has_topology(soup, describe(family, completed)))
+    throw UsageError("a resolution of " + std::to_string(completed.resolution) + " is too low for sample " +
+                     name + "; use a larger --resolution");
+  if (completed.jitter > 0) jitter(soup, completed.jitter, completed.seed);
+  return soup;
+}
+
+}  // namespace mspskel
