@@ -1,0 +1,87 @@
+// A hierarchy of boxes over the surface's triangles: distance, rays, inside.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "mspskel/base/types.h"
+#include "mspskel/mesh/detail/box_tree.h"
+#include "mspskel/mesh/detail/triangle_queries.h"
+#include "mspskel/mesh/surface_snapshot.h"
+
+namespace mspskel {
+
+struct ClosestPoint {
+  Vector3 point = Vector3::Zero();
+  Index face = kNone;  // kNone: nothing within the bound that was asked for
+  double distance = std::numeric_limits<double>::infinity();
+};
+
+struct RayHit {
+  Index face = kNone;
+  double distance = 0.0;  // along the ray, in the frame's unit of length
+};
+
+// Boxes with four children each over leaves of up to four triangles, split by the surface area heuristic
+// (Wald 2007, "On fast construction of SAH-based bounding volume hierarchies"). Boxes are single precision
+// and rounded outward; what is reported is computed in double from the triangles themselves.
+//
+// Coordinates are those of the snapshot (normalised). Copies what it needs: the snapshot may go. Every query
+// is const, thread-safe, allocates nothing and takes O(log faces) for well-shaped surfaces. Where several
+// faces answer equally well (a point above an edge), any of them is named, always the same for the same
+// snapshot.
+class BoundingVolumeHierarchy {
+ public:
+  // O(faces log faces).
+  explicit BoundingVolumeHierarchy(const SurfaceSnapshot& snapshot);
+
+  Index face_count() const { return static_cast<Index>(triangles_.size()); }
+
+  // The surface point nearest to p, if it is nearer than `bound`. A tight bound, such as a neighbour's answer
+  // plus the way to the neighbour, saves time.
+  ClosestPoint closest(const Vector3& p, double bound = std::numeric_limits<double>::infinity()) const;
+
+  // Distance from p to the surface.
+  double distance(const Vector3& p) const { return closest(p).distance; }
+
+  // The first triangle along the ray, at a distance of at most max_distance. The direction may have any
+  // length but zero. A ray that passes an edge or vertex hits one of the triangles there.
+  std::optional<RayHit> first_hit(const Vector3& origin, const Vector3& direction,
+                                  double max_distance = std::numeric_limits<double>::infinity()) const;
+
+  // Triangles that the ray crosses, both ways; an edge or vertex counts once for each triangle that it
+  // touches.
+  Index count_hits(const Vector3& origin, const Vector3& direction,
+                   double max_distance = std::numeric_limits<double>::infinity()) const;
+
+  // Distances to the surface along `count` rays that leave p in the plane of the orthonormal u, w: ray k
+  // points to cos(2πk/count) u + sin(2πk/count) w. Infinity where a ray escapes.
+  void ray_fan(const Vector3& p, const Vector3& u, const Vector3& w, int count, double* distance) const;
+
+  // Whether p lies in the solid: a ray from it crosses the surface an odd number of times, so a shell inside
+  // another bounds a cavity whichever way either is oriented. A ray that comes within rounding of an edge is
+  // dropped for another one. Points on the surface, within rounding, are inside.
+  bool inside(const Vector3& p) const;
+
+  // Whether the open segment ab meets the surface: touching counts as crossing, an end on the surface does
+  // not. Safe against rounding: a segment reported free has both ends strictly on one side, or passes
+  // strictly beside, each triangle.
+  bool segment_crosses(const Vector3& a, const Vector3& b) const;
+
+  // Calls visit(face) for every face whose box meets the box [low, high], some more; stops when visit returns
+  // false.
+  template <class Visit>
+  void for_each_in_box(const Vector3& low, const Vector3& high, Visit visit) const;
+
+ private:
+  bool in_winding(const Vector3& p) const;
+
+  detail::BoxTree tree_;
+  std::vector<detail::Triangle> triangles_;  // in the order of the leaves
+  std::vector<Index> face_;                  // of each triangle
+};
+
+}  // namespace mspskel
+
+#include "mspskel/mesh/detail/bounding_volume_hierarchy_impl.h"

@@ -1,0 +1,174 @@
+#pragma once
+
+#include "mspskel/base/error.h"
+#include "mspskel/mesh/detail/segment_triangle.h"
+
+namespace mspskel {
+
+namespace detail {
+
+inline PrimitiveBox box_of(const Triangle& t, Index primitive) {
+  const Vector3 low = t.a.cwiseMin(t.b).cwiseMin(t.c), high = t.a.cwiseMax(t.b).cwiseMax(t.c);
+  return {{static_cast<float>(low[0]), static_cast<float>(low[1]), static_cast<float>(low[2])},
+          {static_cast<float>(high[0]), static_cast<float>(high[1]), static_cast<float>(high[2])},
+          primitive};
+}
+
+}  // namespace detail
+
+inline BoundingVolumeHierarchy::BoundingVolumeHierarchy(const SurfaceSnapshot& s) {
+  std::vector<detail::Triangle> input(s.face_count());
+  std::vector<detail::PrimitiveBox> boxes(s.face_count());
+  for (Index f = 0; f < s.face_count(); ++f) {
+    input[f] = {s.position[s.origin[3 * f]], s.position[s.origin[3 * f + 1]],
+                s.position[s.origin[3 * f + 2]]};
+    boxes[f] = detail::box_of(input[f], f);
+  }
+  double reach = 0.0;
+  for (const Vector3& p : s.position) reach = std::max(reach, p.cwiseAbs().maxCoeff());
+  tree_.build(boxes, reach);
+  triangles_.resize(boxes.size());
+  face_.resize(boxes.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    face_[i] = boxes[i].primitive;
+    triangles_[i] = input[face_[i]];
+  }
+}
+
+inline ClosestPoint BoundingVolumeHierarchy::closest(const Vector3& p, double bound) const {
+  ClosestPoint best;
+  double square = bound * bound;
+  tree_.by_distance(p, square, [&](Index first, Index count) {
+    for (Index i = first; i < first + count; ++i) {
+      const Vector3 q = detail::closest_on_triangle(p, triangles_[i]);
+      const double d = (q - p).squaredNorm();
+      if (d < square) {
+        square = d;
+        best.point = q;
+        best.face = face_[i];
+      }
+    }
+  });
+  if (best.face != kNone) best.distance = std::sqrt(square);
+  return best;
+}
+
+inline std::optional<RayHit> BoundingVolumeHierarchy::first_hit(const Vector3& origin,
+                                                                const Vector3& direction,
+                                                                double max_distance) const {
+  const Vector3 unit = direction.normalized();
+  RayHit best{kNone, max_distance};
+  tree_.along_ray(origin, unit, best.distance, [&](Index first, Index count) {
+    for (Index i = first; i < first + count; ++i) {
+      const detail::RayTriangle r(origin, unit, triangles_[i]);
+      if (!r.meets_line() || r.volume() == 0) continue;
+      const double t = r.distance(unit);
+      if (t >= 0 && t <= best.distance) best = {face_[i], t};
+    }
+    return true;
+  });
+  if (best.face == kNone) return std::nullopt;
+  return best;
+}
+
+inline Index BoundingVolumeHierarchy::count_hits(const Vector3& origin, const Vector3& direction,
+                                                 double max_distance) const {
+  const Vector3 unit = direction.normalized();
+  Index hits = 0;
+  tree_.along_ray(origin, unit, max_distance, [&](Index first, Index count) {
+    for (Index i = first; i < first + count; ++i) {
+      const detail::RayTriangle r(origin, unit, triangles_[i]);
+      if (!r.meets_line() || r.volume() == 0) continue;
+      const double t = r.distance(unit);
+      if (t >= 0 && t <= max_distance) ++hits;
+    }
+    return true;
+  });
+  return hits;
+}
+
+inline void BoundingVolumeHierarchy::ray_fan(const Vector3& p, const Vector3& u, const Vector3& w, int count,
+                                             double* distance) const {
+  for (int k = 0; k < count; ++k) {
+    const double angle = 2 * kPi * k / count;
+    const auto hit = first_hit(p, std::cos(angle) * u + std::sin(angle) * w);
+    distance[k] = hit ? hit->distance : std::numeric_limits<double>::infinity();
+  }
+}
+
+inline bool BoundingVolumeHierarchy::inside(const Vector3& p) const {
+  // Spread by the golden angle, so that no two are alike and none is parallel to an axis or a diagonal. The
+  // one that points away from the middle has the least surface ahead.
+  constexpr int kDirections = 16;
+  static const auto directions = [] {
+    std::array<Vector3, kDirections> d;
+    for (int k = 0; k < kDirections; ++k) {
+      const double z = 1 - (2 * k + 1.0) / kDirections, angle = k * kPi * (3 - std::sqrt(5.0)) + 0.35;
+      d[k] = Vector3(std::sqrt(1 - z * z) * std::cos(angle), std::sqrt(1 - z * z) * std::sin(angle), z);
+    }
+    return d;
+  }();
+  int start = 0;
+  for (int k = 1; k < kDirections; ++k)
+    if (directions[k].dot(p) > directions[start].dot(p)) start = k;
+  for (int k = 0; k < kDirections; ++k) {
+    const Vector3& direction = directions[(start + k) % kDirections];
+    bool odd = false, doubtful = false, on_surface = false;
+    tree_.along_ray(p, direction, std::numeric_limits<double>::infinity(), [&](Index first, Index count) {
+      for (Index i = first; i < first + count; ++i)
+        switch (detail::ray_crossing(p, direction, triangles_[i])) {
+          case detail::Crossing::kNone:
+            break;
+          case detail::Crossing::kClear:
+            odd = !odd;
+            break;
+          case detail::Crossing::kDoubtful:
+            doubtful = true;
+            break;
+          case detail::Crossing::kOnSurface:
+            on_surface = true;
+            break;
+        }
+      return !doubtful && !on_surface;
+    });
+    if (on_surface) return true;
+    if (!doubtful) return odd;
+  }
+  // Every ray meets an edge at p itself, unless p is on the surface.
+  return distance(p) <= 1e-14 * std::max(1.0, p.norm()) || in_winding(p);
+}
+
+// By the solid angles of the triangles (Van Oosterom, Strackee 1983). O(faces): for points that no ray could
+// settle.
+inline bool BoundingVolumeHierarchy::in_winding(const Vector3& p) const {
+  double angle = 0.0;
+  for (const detail::Triangle& t : triangles_) {
+    const Vector3 a = t.a - p, b = t.b - p, c = t.c - p;
+    const double la = a.norm(), lb = b.norm(), lc = c.norm();
+    angle += 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+  }
+  return std::lround(angle / (4 * kPi)) % 2 != 0;
+}
+
+inline bool BoundingVolumeHierarchy::segment_crosses(const Vector3& a, const Vector3& b) const {
+  const double length = (b - a).norm();
+  if (!(length > 0)) return false;
+  bool crossed = false;
+  tree_.along_ray(a, (b - a) / length, length, [&](Index first, Index count) {
+    for (Index i = first; i < first + count && !crossed; ++i)
+      crossed = detail::segment_meets_triangle(a, b, triangles_[i], false);
+    return !crossed;
+  });
+  return crossed;
+}
+
+template <class Visit>
+void BoundingVolumeHierarchy::for_each_in_box(const Vector3& low, const Vector3& high, Visit visit) const {
+  tree_.in_box(low, high, [&](Index first, Index count) {
+    for (Index i = first; i < first + count; ++i)
+      if (!visit(face_[i])) return false;
+    return true;
+  });
+}
+
+}  // namespace mspskel

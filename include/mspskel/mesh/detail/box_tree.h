@@ -1,0 +1,330 @@
+// Boxes with four children each over numbered primitives, and the traversals: by distance from a point, along
+// a ray, through a box.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "mspskel/base/types.h"
+
+namespace mspskel {
+namespace detail {
+
+using Float3 = std::array<float, 3>;
+
+struct PrimitiveBox {
+  Float3 low, high;
+  Index primitive;
+};
+
+// Children side by side, so that one query tests four boxes at once. A lane without a child has an inverted
+// box.
+struct alignas(64) BoxNode {
+  float low[3][4], high[3][4];
+  Index child[4];  // a node, or the first slot of a leaf
+  Index count[4];  // 0: child is a node; else the number of slots in the leaf
+};
+
+class BoxTree {
+ public:
+  static constexpr Index kLeafSize = 4;
+
+  // Reorders `boxes`; slot i of the leaves is boxes[i]. `reach` bounds every coordinate's magnitude.
+  void build(std::vector<PrimitiveBox>& boxes, double reach);
+
+  // Calls leaf(first, count) by growing distance from p as long as a box is nearer than `bound` (a squared
+  // distance that the callback lowers).
+  template <class Leaf>
+  void by_distance(const Vector3& p, const double& bound, Leaf leaf) const;
+
+  // Calls leaf(first, count) for the leaves along origin + t·direction, 0 <= t <= bound (a distance that the
+  // callback may lower), roughly front to back; stops when the callback returns false. The direction has
+  // length 1.
+  template <class Leaf>
+  void along_ray(const Vector3& origin, const Vector3& direction, const double& bound, Leaf leaf) const;
+
+  // Calls leaf(first, count) for the leaves whose box meets the box [low, high]; stops when the callback
+  // returns false.
+  template <class Leaf>
+  void in_box(const Vector3& low, const Vector3& high, Leaf leaf) const;
+
+ private:
+  Index build_node(PrimitiveBox* boxes, Index begin, Index end, int depth);
+
+  std::vector<BoxNode> nodes_;
+  double reach_ = 0.0;
+};
+
+struct Bounds {
+  Float3 low{std::numeric_limits<float>::max(), std::numeric_limits<float>::max(),
+             std::numeric_limits<float>::max()};
+  Float3 high{std::numeric_limits<float>::lowest(), std::numeric_limits<float>::lowest(),
+              std::numeric_limits<float>::lowest()};
+
+  void add(const Float3& lo, const Float3& hi) {
+    for (int k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], lo[k]);
+      high[k] = std::max(high[k], hi[k]);
+    }
+  }
+  float half_area() const {
+    const float x = high[0] - low[0], y = high[1] - low[1], z = high[2] - low[2];
+    return x < 0 ? 0.0f : x * y + y * z + z * x;
+  }
+};
+
+inline Float3 twice_centre(const PrimitiveBox& b) {
+  return {b.low[0] + b.high[0], b.low[1] + b.high[1], b.low[2] + b.high[2]};
+}
+
+// Where to cut [begin, end) in two, after reordering it: 16 bins along the longest axis of the centres.
+inline Index split(PrimitiveBox* boxes, Index begin, Index end, bool halve) {
+  constexpr int kBins = 16;
+  Bounds centres;
+  for (Index i = begin; i < end; ++i) {
+    const Float3 c = twice_centre(boxes[i]);
+    centres.add(c, c);
+  }
+  int axis = 0;
+  for (int k = 1; k < 3; ++k)
+    if (centres.high[k] - centres.low[k] > centres.high[axis] - centres.low[axis]) axis = k;
+  const float extent = centres.high[axis] - centres.low[axis];
+  const Index middle = begin + (end - begin) / 2;
+  if (!(extent > 0)) return middle;
+  if (halve) {
+    std::nth_element(boxes + begin, boxes + middle, boxes + end,
+                     [&](const PrimitiveBox& a, const PrimitiveBox& b) {
+                       return twice_centre(a)[axis] < twice_centre(b)[axis];
+                     });
+    return middle;
+  }
+  const float scale = kBins * 0.9999f / extent;
+  const auto bin_of = [&](const PrimitiveBox& b) {
+    return static_cast<int>((b.low[axis] + b.high[axis] - centres.low[axis]) * scale);
+  };
+  std::array<Bounds, kBins> bin;
+  std::array<Index, kBins> count{};
+  for (Index i = begin; i < end; ++i) {
+    const int k = bin_of(boxes[i]);
+    bin[k].add(boxes[i].low, boxes[i].high);
+    ++count[k];
+  }
+  // cost[k]: of everything to the right of the cut after bin k; then swept from the left.
+  std::array<float, kBins> cost{};
+  Bounds sweep;
+  Index swept = 0;
+  for (int k = kBins - 1; k > 0; --k) {
+    sweep.add(bin[k].low, bin[k].high);
+    swept += count[k];
+    cost[k - 1] = sweep.half_area() * static_cast<float>(swept);
+  }
+  int best = -1;
+  sweep = Bounds();
+  swept = 0;
+  float best_cost = std::numeric_limits<float>::infinity();
+  for (int k = 0; k + 1 < kBins; ++k) {
+    sweep.add(bin[k].low, bin[k].high);
+    swept += count[k];
+    const float c = sweep.half_area() * static_cast<float>(swept) + cost[k];
+    if (swept > 0 && swept < end - begin && c < best_cost) {
+      best_cost = c;
+      best = k;
+    }
+  }
+  if (best < 0) return middle;
+  PrimitiveBox* const cut =
+      std::partition(boxes + begin, boxes + end, [&](const PrimitiveBox& b) { return bin_of(b) <= best; });
+  return static_cast<Index>(cut - boxes);
+}
+
+inline void BoxTree::build(std::vector<PrimitiveBox>& boxes, double reach) {
+  nodes_.clear();
+  nodes_.reserve(boxes.size() / 4 + 1);
+  reach_ = reach;
+  // Queries round their point to float as well: four units in the last place of the largest coordinate cover
+  // both.
+  const float pad = static_cast<float>(reach) * 0x1p-21f;
+  for (PrimitiveBox& b : boxes)
+    for (int k = 0; k < 3; ++k) {
+      b.low[k] -= pad;
+      b.high[k] += pad;
+    }
+  build_node(boxes.data(), 0, static_cast<Index>(boxes.size()), 0);
+}
+
+inline Index BoxTree::build_node(PrimitiveBox* boxes, Index begin, Index end, int depth) {
+  struct Range {
+    Index begin, end;
+    Bounds bounds;
+  };
+  const auto make_range = [&](Index b, Index e) {
+    Range r{b, e, {}};
+    for (Index i = b; i < e; ++i) r.bounds.add(boxes[i].low, boxes[i].high);
+    return r;
+  };
+  std::array<Range, 4> range;
+  int ranges = 1;
+  range[0] = make_range(begin, end);
+  while (ranges < 4) {
+    int widest = -1;
+    for (int r = 0; r < ranges; ++r)
+      if (range[r].end - range[r].begin > kLeafSize &&
+          (widest < 0 || range[r].bounds.half_area() > range[widest].bounds.half_area()))
+        widest = r;
+    if (widest < 0) break;
+    // Halving below a depth that no sensible surface needs bounds the traversals' stacks.
+    const Index b = range[widest].begin, e = range[widest].end, cut = split(boxes, b, e, depth > 32);
+    range[widest] = make_range(b, cut);
+    range[ranges++] = make_range(cut, e);
+  }
+  const Index node = static_cast<Index>(nodes_.size());
+  nodes_.emplace_back();
+  for (int r = 0; r < 4; ++r) {
+    const Bounds bounds = r < ranges ? range[r].bounds : Bounds();
+    for (int k = 0; k < 3; ++k) {
+      nodes_[node].low[k][r] = bounds.low[k];
+      nodes_[node].high[k][r] = bounds.high[k];
+    }
+    nodes_[node].child[r] = r < ranges ? range[r].begin : 0;
+    nodes_[node].count[r] = r < ranges ? range[r].end - range[r].begin : 0;
+  }
+  for (int r = 0; r < ranges; ++r)
+    if (range[r].end - range[r].begin > kLeafSize) {
+      const Index child = build_node(boxes, range[r].begin, range[r].end, depth + 1);
+      nodes_[node].child[r] = child;
+      nodes_[node].count[r] = 0;
+    }
+  return node;
+}
+
+// Children that wait to be visited, the nearest on top.
+class BoxStack {
+ public:
+  struct Entry {
+    float key;
+    Index child, count;
+  };
+  bool empty() const { return size_ == 0; }
+  Entry pop() { return entry_[--size_]; }
+  // Pushes the lanes with keep[k], farthest first.
+  void push(const BoxNode& node, const float* key, const bool* keep) {
+    const int bottom = size_;
+    for (int k = 0; k < 4; ++k) {
+      if (!keep[k]) continue;
+      int slot = size_++;
+      for (; slot > bottom && entry_[slot - 1].key < key[k]; --slot) entry_[slot] = entry_[slot - 1];
+      entry_[slot] = {key[k], node.child[k], node.count[k]};
+    }
+  }
+  void push_root() { entry_[size_++] = {0.0f, 0, 0}; }
+
+ private:
+  // Three waiting siblings a level; 33 levels by area, then at most 16 by halving.
+  Entry entry_[3 * 64];
+  int size_ = 0;
+};
+
+template <class Leaf>
+void BoxTree::by_distance(const Vector3& p, const double& bound, Leaf leaf) const {
+  const float q[3] = {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])};
+  // Rounding in single precision may not make a box look farther than it is.
+  constexpr float kShrink = 1.0f - 4e-6f;
+  BoxStack stack;
+  stack.push_root();
+  while (!stack.empty()) {
+    const BoxStack::Entry top = stack.pop();
+    if (static_cast<double>(top.key) > bound) continue;
+    if (top.count > 0) {
+      leaf(top.child, top.count);
+      continue;
+    }
+    const BoxNode& node = nodes_[top.child];
+    float key[4] = {0, 0, 0, 0};
+    for (int a = 0; a < 3; ++a)
+      for (int k = 0; k < 4; ++k) {
+        const float below = node.low[a][k] - q[a], above = q[a] - node.high[a][k];
+        const float outside = below > above ? below : above, d = outside > 0 ? outside : 0.0f;
+        key[k] += d * d;
+      }
+    bool keep[4];
+    for (int k = 0; k < 4; ++k) {
+      key[k] *= kShrink;
+      keep[k] = static_cast<double>(key[k]) <= bound && key[k] < std::numeric_limits<float>::max();
+    }
+    stack.push(node, key, keep);
+  }
+}
+
+template <class Leaf>
+void BoxTree::along_ray(const Vector3& origin, const Vector3& direction, const double& bound,
+                        Leaf leaf) const {
+  // A far origin slides along the ray to just before the boxes, where single precision suffices.
+  double slid = 0.0;
+  if (origin.cwiseAbs().maxCoeff() > 2 * reach_) {
+    slid = -origin.dot(direction);
+    if (slid <= 0 || (origin + slid * direction).cwiseAbs().maxCoeff() > 2 * reach_) return;
+    slid -= 2 * reach_;
+  }
+  const Vector3 start = origin + slid * direction;
+  float o[3], inverse[3];
+  for (int a = 0; a < 3; ++a) {
+    o[a] = static_cast<float>(start[a]);
+    const double d = direction[a];
+    inverse[a] = static_cast<float>(std::abs(d) > 1e-30 ? 1.0 / d : std::copysign(1e30, d));
+  }
+  BoxStack stack;
+  stack.push_root();
+  while (!stack.empty()) {
+    const BoxStack::Entry top = stack.pop();
+    const float limit = static_cast<float>(std::min(bound - slid, 1e30)) * (1.0f + 1e-6f);
+    if (top.key > limit) continue;
+    if (top.count > 0) {
+      if (!leaf(top.child, top.count)) return;
+      continue;
+    }
+    const BoxNode& node = nodes_[top.child];
+    float enter[4] = {0, 0, 0, 0}, leave[4] = {limit, limit, limit, limit};
+    for (int a = 0; a < 3; ++a) {
+      const float* const first = inverse[a] < 0 ? node.high[a] : node.low[a];
+      const float* const last = inverse[a] < 0 ? node.low[a] : node.high[a];
+      for (int k = 0; k < 4; ++k) {
+        const float in = (first[k] - o[a]) * inverse[a], out = (last[k] - o[a]) * inverse[a];
+        enter[k] = in > enter[k] ? in : enter[k];
+        leave[k] = out < leave[k] ? out : leave[k];
+      }
+    }
+    bool keep[4];
+    for (int k = 0; k < 4; ++k) keep[k] = enter[k] <= leave[k] * (1.0f + 1e-6f);
+    stack.push(node, enter, keep);
+  }
+}
+
+template <class Leaf>
+void BoxTree::in_box(const Vector3& low, const Vector3& high, Leaf leaf) const {
+  float lo[3], hi[3];  // rounding is covered by the padding of the boxes
+  for (int a = 0; a < 3; ++a) {
+    lo[a] = static_cast<float>(low[a]);
+    hi[a] = static_cast<float>(high[a]);
+  }
+  BoxStack stack;
+  stack.push_root();
+  while (!stack.empty()) {
+    const BoxStack::Entry top = stack.pop();
+    if (top.count > 0) {
+      if (!leaf(top.child, top.count)) return;
+      continue;
+    }
+    const BoxNode& node = nodes_[top.child];
+    bool keep[4] = {true, true, true, true};
+    for (int a = 0; a < 3; ++a)
+      for (int k = 0; k < 4; ++k) keep[k] = keep[k] & (node.low[a][k] <= hi[a]) & (node.high[a][k] >= lo[a]);
+    const float key[4] = {0, 0, 0, 0};
+    stack.push(node, key, keep);
+  }
+}
+
+}  // namespace detail
+}  // namespace mspskel
