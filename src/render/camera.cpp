@@ -114,14 +114,17 @@ ModelFrame make_model_frame(const DrawSurface& surface, const std::vector<Vector
   if (area <= 0.0) covariance = point_covariance(other_points);
   Vector3 values;
   const Eigen::Matrix3d axes = principal_axes(covariance, values);
-  constexpr double kUprightCosine = 0.906;  // 25 degrees
+  constexpr double kUprightCosine = 0.866;  // 30 degrees
   int up = 1;
   for (const int k : {0, 1, 2}) {
     if (std::abs(axes.col(k).y()) > kUprightCosine) up = k;
   }
   ModelFrame frame;
   frame.up = towards_positive(axes.col(up));
-  frame.right = towards_positive(axes.col(up == 0 ? 1 : 0));
+  int nearest = 0;
+  if (frame.up.maxCoeff(&nearest) > kUprightCosine) frame.up = Vector3::Unit(nearest);
+  const Vector3 right = towards_positive(axes.col(up == 0 ? 1 : 0));
+  frame.right = (right - right.dot(frame.up) * frame.up).normalized();
   frame.toward = frame.right.cross(frame.up);
   frame.tall = up == 0;
   return frame;

@@ -63,9 +63,15 @@ void add_skeleton(const RenderScene& scene, const RenderOptions& options,
                   const std::vector<SkeletonPiece>& pieces, const std::vector<bool>& node_inside,
                   View& view) {
   const double radius = 0.5 * options.line_width * options.samples;
-  for (const SkeletonPiece& piece : pieces) {
-    view.tubes.push_back({view.camera.project(piece.begin), view.camera.project(piece.end), radius,
-                          piece.outside ? options.outside_color : options.edge_color});
+  for (std::size_t i = 0; i < pieces.size();) {
+    std::size_t last = i;  // of a run of pieces of one edge and one colour: one tube without seams
+    while (last + 1 < pieces.size() && pieces[last + 1].edge == pieces[i].edge &&
+           pieces[last + 1].outside == pieces[i].outside) {
+      ++last;
+    }
+    view.tubes.push_back({view.camera.project(pieces[i].begin), view.camera.project(pieces[last].end), radius,
+                          pieces[i].outside ? options.outside_color : options.edge_color});
+    i = last + 1;
   }
   const auto neighbours = adjacency(scene.skeleton);
   for (std::size_t i = 0; i < scene.skeleton.nodes.size(); ++i) {
@@ -75,7 +81,7 @@ void add_skeleton(const RenderScene& scene, const RenderOptions& options,
     const Color color = !node_inside[i] ? options.outside_color
                         : degree > 2    ? options.joint_color
                                         : options.leaf_color;
-    view.tubes.push_back({at, at, (degree > 2 ? 1.7 : 1.9) * radius, color});
+    view.tubes.push_back({at, at, (degree > 2 ? 2.1 : 2.3) * radius, color});
   }
 }
 

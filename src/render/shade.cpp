@@ -109,7 +109,8 @@ Rgb shade_sample(const Shading& shading, const View& view, const Band& band, int
   if (tube && covered) color = tube_color(view, band, s);
   if (face) {
     Layer layer = nearest_layer(shading, view, band, x, row);
-    if (tube && shading.ghost) layer.opacity *= 0.6f;
+    if (tube && shading.ghost)
+      layer.opacity *= 0.4f + 0.6f * static_cast<float>(shading.options.ghost_opacity);
     if (outline) layer = {mix(layer.color, kLine, 0.8f), shading.ghost ? (tube ? 0.35f : 0.7f) : 1.0f};
     color = mix(color, layer.color, layer.opacity);
   }

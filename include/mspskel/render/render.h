@@ -43,7 +43,7 @@ struct RenderOptions {
   Color surface_color{176, 190, 210};
   Color edge_color{30, 70, 190};     // skeleton
   Color leaf_color{245, 150, 20};    // nodes with one neighbour
-  Color joint_color{20, 150, 70};    // nodes with three or more
+  Color joint_color{30, 165, 70};    // nodes with three or more
   Color outside_color{220, 20, 30};  // skeleton outside the surface's solid
 };
 
@@ -51,15 +51,21 @@ struct RenderOptions {
 void validate(const RenderOptions& options);
 
 // Renders `view_count` views side by side (more than four: in a block), each fitted to its cell.
+//
 // The camera stands by the principal axes of the surface (area-weighted), so the model's orientation hardly
-// matters; the axis nearest to y, if one is within 25 degrees, is drawn upright, else the second. View 1
-// looks along the shorter of the other two; view 2 is the other principal view that shows the longest axis;
-// the rest are three-quarter views. One view alone is the three-quarter view, two are view 1 and the
-// three-quarter view. The surface is drawn as a ghost if there is a skeleton or a line. Skeleton parts
-// outside of the solid get outside_color, see outside_pieces(). Throws UsageError for options or vertex
-// colours that do not fit, MeshError for corners or coordinates that do not. Cost: O(faces + pixels *
-// samples^2 * depth) a view; 70,000 faces in three views of 600 x 600 take half a second. The picture does
-// not depend on the number of threads.
+// matters. Upright is the principal axis within 30 degrees of y, else the second; if a coordinate axis is
+// within 30 degrees of it, that one, because models stand on their coordinate planes more often than on their
+// principal ones. View 1 looks along the shorter of the other two axes; view 2 is the other level or top view
+// that shows the longest; the rest are three-quarter views, evenly round. One view alone is the three-quarter
+// view, two are view 1 and that.
+//
+// The surface is drawn as a ghost if there is a skeleton or a line. Skeleton parts outside of the solid get
+// outside_color, see outside_pieces(). The picture does not depend on the number of threads.
+//
+// Throws UsageError for options or vertex colours that do not fit, MeshError for corners or coordinates that
+// do not.
+// Cost: O(faces + pixels * samples^2 * depth) a view; 70,000 faces in three views of 600 x 600 take 0.2 s on
+// two cores.
 Image render(const RenderScene& scene, const RenderOptions& options = {}, const Execution& execution = {});
 
 // A short straight piece of a skeleton edge, and whether its middle is outside the surface's solid.
