@@ -1,0 +1,72 @@
+// The skeletal point of one slice: the place in its plane where the skeleton passes (thesis 4.2).
+#pragma once
+
+#include "mspskel/base/error.h"
+#include "mspskel/center/planar_region.h"
+#include "mspskel/center/repulsive_force.h"
+
+namespace mspskel {
+
+enum class SkeletalPointMethod {
+  kCentre,        // the mean of the outer contour's points by arc length; may lie outside, as the thesis says
+  kSampledForce,  // the six steps of 4.2.2 on the sampled force of Eq. 4.1
+  kClosedForm,    // the same steps on Eq. 4.1 integrated along the contour, by Newton's method
+  kAreaField,     // where the field of the filled region vanishes, from the region's centroid
+  kVisibleField,  // where the field of the part visible from the point itself vanishes
+};
+
+struct SkeletalPointOptions {
+  SkeletalPointMethod method = SkeletalPointMethod::kClosedForm;
+  // Lengths are in perimeters of the outer contour.
+  Index moving_samples = 32;  // sampled force: moving samples, even in arc length; 1 to 10000
+  Index force_samples =
+      64;  // sampled force: force samples on the outer contour, holes at the same spacing; 3 to 100000
+  double displacement = 1e-3;  // sampled force: a moving sample's first distance from the contour, (0, 0.1]
+  double step = 0.25;          // sampled force: a step, in distances to the contour, (0, 0.9]
+  double merge_radius = 0.02;  // both forces: minima closer than this are one, [0, 1]
+  Index starts = 8;            // closed form: descents, even in arc length, 1 to 10000
+  double start_depth =
+      0.5;  // closed form: where on the inward chord of its contour point a descent starts, (0, 0.9]
+  Index max_segments = 0;  // closed form: descend on the contours resampled to this many segments, then
+                           // finish on the whole ones; 0: whole contours all along, or at least 8
+  Index rays = 64;         // visible field: rays, 8 to 100000
+  double tolerance =
+      1e-3;  // Newton: a step shorter than this many mean widths is the last one (its own error is of
+  // second order), [1e-12, 0.1]
+  Index max_iterations = 200;  // a sample's steps at most, 1 to 100000
+};
+
+// Throws UsageError naming the first option that is out of its range.
+void validate(const SkeletalPointOptions& options);
+
+enum class SkeletalPointStop {
+  kConverged,   // a centre, or a minimum that samples converged to
+  kShoulder,    // sampled force: the winner stopped where the force grows, as the thesis says, though it has
+                // not vanished
+  kIterations,  // the winner ran out of iterations or of room for smaller steps
+  kClosedFormInstead,  // the field of the filled or visible region has no zero near: the closed form's point
+  kDeepestSample,      // no sample got anywhere: the one farthest from the contour
+  kDegenerate,         // no region to speak of: the contour's centre
+};
+
+struct SkeletalPoint {
+  Vector2 position = Vector2::Zero();
+  Index votes = 0;       // samples that converged to it
+  Index samples = 0;     // samples that were traced; the rest could not have changed the vote
+  Index minima = 0;      // distinct minima seen
+  Index iterations = 0;  // steps of all samples
+  SkeletalPointStop stop = SkeletalPointStop::kDegenerate;
+};
+
+// The skeletal point of a region, in the region's coordinates. For the force methods and the field methods it
+// lies strictly inside the region (unless kDegenerate), and so do all samples at all times: a step that would
+// cross a contour is shortened. The winner among several minima is the one with most votes (thesis 4.2.2);
+// equal votes go to the lower potential (sampled force: the lower force), then to the first. Everything
+// scales and turns with the region. On slices longer than about three widths the repulsive force has a
+// minimum near each end and a saddle between; the area field has one zero, in the middle. Throws UsageError
+// for bad options. Cost: samples · iterations · segments.
+SkeletalPoint find_skeletal_point(const PlanarRegion& region, const SkeletalPointOptions& options = {});
+
+}  // namespace mspskel
+
+#include "mspskel/center/detail/skeletal_point_impl.h"
