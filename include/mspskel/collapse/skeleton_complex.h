@@ -48,6 +48,8 @@ class SkeletonComplex {
   void reserve(Index edges, Index faces);
   // Vertices without an edge are dead from here on.
   void drop_isolated_vertices();
+  // Every label becomes zero, and all parallel edges merge.
+  void forget_labels();
   // Identifies parallel edges with equal labels. Cost: O(sum of squared degrees).
   void merge_parallel_edges();
 

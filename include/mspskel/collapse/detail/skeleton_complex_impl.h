@@ -111,6 +111,11 @@ inline void SkeletonComplex::drop_isolated_vertices() {
   }
 }
 
+inline void SkeletonComplex::forget_labels() {
+  for (CocycleLabel& label : labels_) label = {};
+  merge_parallel_edges();
+}
+
 inline void SkeletonComplex::merge_parallel_edges() {
   for (Index e = 0; e < edge_capacity(); ++e) {
     if (!is_edge(e)) continue;

@@ -1,0 +1,328 @@
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <string>
+#include <utility>
+
+namespace mspskel {
+
+inline SkeletonDecimater::SkeletonDecimater(SkeletonComplex complex, std::vector<MergingSet> sets,
+                                            CollapseOptions options)
+    : complex_(std::move(complex)), sets_(std::move(sets)), options_(std::move(options)) {
+  validate(options_);
+  if (!options_.keep_topology) complex_.forget_labels();
+  if (static_cast<Index>(sets_.size()) != complex_.vertex_capacity())
+    throw UsageError("merging sets: there must be one for every vertex");
+  nodes_.resize(sets_.size());
+  parent_.assign(sets_.size(), kNone);
+  state_.assign(static_cast<std::size_t>(complex_.edge_capacity()), State::kQueued);
+  for (Index v = 0; v < complex_.vertex_capacity(); ++v) {
+    refresh(v);
+    if (complex_.is_vertex(v) && !nodes_[v].position.allFinite())
+      throw UsageError("skeletal point " + std::to_string(v) + " is not finite");
+  }
+  const std::vector<Index> edges = detail::living_edges(complex_);
+  for (const Index e : edges) longest_ = std::max(longest_, length(e));
+  heap_.reserve(edges.size());
+  for (const Index e : edges) heap_.push_back(key(e));
+  std::make_heap(heap_.begin(), heap_.end(), std::greater<>());
+}
+
+inline Index SkeletonDecimater::node_of(Index v) const {
+  while (parent_[v] != kNone) v = parent_[v];
+  return v;
+}
+
+// ---- costs
+// -----------------------------------------------------------------------------------------------------------
+
+inline void SkeletonDecimater::refresh(Index node) {
+  Node& n = nodes_[node];
+  n.position = sets_[node].position();
+  n.perimeter = sets_[node].perimeter();
+  n.axis_known = false;
+}
+
+inline const Vector3& SkeletonDecimater::axis(Index node) {
+  Node& n = nodes_[node];
+  if (!n.axis_known) n.axis = sets_[node].axis();
+  n.axis_known = true;
+  return n.axis;
+}
+
+inline double SkeletonDecimater::length(Index e) const {
+  const auto [u, v] = complex_.ends(e);
+  return (nodes_[u].position - nodes_[v].position).norm();
+}
+
+// Grows with every change of either end: the kept end's revision becomes the sum of both and one more.
+inline std::uint32_t SkeletonDecimater::revision(Index e) const {
+  const auto [u, v] = complex_.ends(e);
+  return nodes_[u].revision + nodes_[v].revision;
+}
+
+inline CostTerms SkeletonDecimater::cost_terms(Index e) {
+  const auto [u, v] = complex_.ends(e);
+  CostTerms terms;
+  terms.perimeter_ratio = perimeter_ratio(nodes_[u].perimeter, nodes_[v].perimeter);
+  terms.relative_length = longest_ > 0 ? length(e) / longest_ : 0.0;
+  terms.angle = axis_angle(axis(u), axis(v));
+  terms.slice_error = slice_error_metric(sets_[u], sets_[v]);
+  return terms;
+}
+
+inline SkeletonDecimater::Key SkeletonDecimater::key(Index e) {
+  const double size = length(e);
+  double cost = size;
+  if (options_.cost) {
+    cost = options_.cost(cost_terms(e));
+    if (std::isnan(cost)) cost = std::numeric_limits<double>::infinity();
+  } else if (options_.order == CollapseOrder::kCost) {
+    cost = total_cost(cost_terms(e), options_.lambda, options_.angle_floor);
+  }
+  return {cost, size, e, revision(e)};
+}
+
+// ---- the queue
+// -------------------------------------------------------------------------------------------------------
+
+inline void SkeletonDecimater::push(const Key& key) {
+  state_[key.edge] = State::kQueued;
+  heap_.push_back(key);
+  std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
+  ++counts_.queue_operations;
+}
+
+inline SkeletonDecimater::Key SkeletonDecimater::pop() {
+  std::pop_heap(heap_.begin(), heap_.end(), std::greater<>());
+  const Key top = heap_.back();
+  heap_.pop_back();
+  ++counts_.queue_operations;
+  return top;
+}
+
+inline bool SkeletonDecimater::step() {
+  while (!heap_.empty()) {
+    const Key top = pop();
+    if (!complex_.is_edge(top.edge)) continue;
+    if (top.revision != revision(top.edge) && !heap_.empty()) {
+      const Key current = key(top.edge);
+      if (heap_.front() < current) {
+        push(current);
+        continue;
+      }
+    }
+    if (process(top.edge)) return true;
+  }
+  return leave_dead_end();
+}
+
+inline void SkeletonDecimater::run(const Execution& execution) {
+  constexpr Index kInterval = 256;
+  const double vertices = std::max<Index>(complex_.vertex_count(), 1);
+  Index steps = 0;
+  do {
+    if (steps++ % kInterval == 0)
+      report_progress(execution.progress, "collapse", std::min(1.0, counts_.collapses / vertices));
+  } while (step());
+  report_progress(execution.progress, "collapse", 1.0);
+}
+
+// ---- one edge
+// --------------------------------------------------------------------------------------------------------
+
+inline bool SkeletonDecimater::is_noise(Index e) const {
+  const auto [u, v] = complex_.ends(e);
+  return edge_saturation(sets_[u], sets_[v]) < options_.saturation_threshold;
+}
+
+// Fig. 4.5: whether no adjacent edge can change the ends any more.
+inline bool SkeletonDecimater::has_settled_neighbours(Index e) const {
+  for (const Index node : complex_.ends(e))
+    for (Index d = complex_.first_dart(node); d != kNone; d = complex_.next_dart(d))
+      if (complex_.face_count(d / 2) > 0 || is_noise(d / 2)) return false;
+  return true;
+}
+
+// Collapses the edge or sets it aside; returns whether it collapsed.
+inline bool SkeletonDecimater::process(Index e) {
+  if (complex_.face_count(e) > 0) return try_collapse(e, false);
+  if (options_.one_dimensional == EdgePolicy::kSaturation && is_noise(e)) return try_collapse(e, false);
+  const bool listed = options_.one_dimensional == EdgePolicy::kKeep || has_settled_neighbours(e);
+  state_[e] = listed ? State::kListed : State::kParked;
+  ++(listed ? counts_.listed : counts_.parked);
+  return false;
+}
+
+inline bool SkeletonDecimater::try_collapse(Index e, bool allow_parallel) {
+  const auto [first, second] = complex_.ends(e);
+  // The end with fewer edges moves: its edges are relinked one by one.
+  const bool keep_first = complex_.degree(first) >= complex_.degree(second);
+  const Index kept = keep_first ? first : second, gone = keep_first ? second : first;
+  const bool flat = complex_.face_count(e) == 0;
+  const CollapseRefusal refusal = complex_.collapse(e, kept, allow_parallel);
+  if (refusal != CollapseRefusal::kAllowed) {
+    ++(refusal == CollapseRefusal::kLoop ? counts_.refused_loop : counts_.refused_labels);
+    state_[e] = State::kRefused;
+    return false;
+  }
+  ++counts_.collapses;
+  if (flat) ++counts_.one_dimensional_collapses;
+  sets_[kept].merge(sets_[gone]);
+  parent_[gone] = kept;
+  nodes_[kept].revision += nodes_[gone].revision + 1;
+  refresh(kept);
+  // A merged edge may have gained the faces that make it collapsible again.
+  for (const Index m : complex_.merged_edges())
+    if (complex_.is_edge(m) && complex_.face_count(m) > 0 &&
+        (state_[m] == State::kParked || state_[m] == State::kListed)) {
+      ++counts_.reopened;
+      push(key(m));
+    }
+  if (options_.one_dimensional == EdgePolicy::kSaturation) reopen_noise(kept);
+  return true;
+}
+
+// The saturation of an edge changes with its ends only: edges aside return if theirs fell below the
+// threshold.
+inline void SkeletonDecimater::reopen_noise(Index node) {
+  for (Index d = complex_.first_dart(node); d != kNone; d = complex_.next_dart(d)) {
+    const Index e = d / 2;
+    if ((state_[e] == State::kParked || state_[e] == State::kListed) && is_noise(e)) {
+      ++counts_.reopened;
+      push(key(e));
+    }
+  }
+}
+
+// A loop of three edges round a handle blocks each of them for good, whatever else collapses; only the
+// deletion of an edge at one of their ends can free them.
+inline void SkeletonDecimater::reopen_refused(Index node) {
+  for (Index d = complex_.first_dart(node); d != kNone; d = complex_.next_dart(d))
+    if (state_[d / 2] == State::kRefused) push(key(d / 2));
+}
+
+// ---- dead ends
+// -------------------------------------------------------------------------------------------------------
+
+inline bool SkeletonDecimater::leave_dead_end() {
+  if (complex_.face_count() == 0) return options_.keep_topology && cut_surplus_loops();
+  if (living_.empty()) living_ = detail::living_edges(complex_);
+  living_.erase(std::remove_if(living_.begin(), living_.end(), [&](Index e) { return !complex_.is_edge(e); }),
+                living_.end());
+  if (options_.dead_end == DeadEnd::kParallelEdges && collapse_to_parallel_edges()) return true;
+  if (!thin_sheet()) delete_largest_face();
+  return true;
+}
+
+inline bool SkeletonDecimater::collapse_to_parallel_edges() {
+  std::vector<Key> candidates;
+  for (const Index e : living_)
+    if (complex_.face_count(e) > 0) candidates.push_back(key(e));
+  std::sort(candidates.begin(), candidates.end());
+  for (const Key& candidate : candidates) {
+    if (!try_collapse(candidate.edge, true)) continue;
+    ++counts_.parallel_collapses;
+    return true;
+  }
+  return false;
+}
+
+// Deletes the longest edge that has one face, with that face: an elementary collapse, which keeps the
+// homotopy type.
+inline bool SkeletonDecimater::thin_sheet() {
+  Index longest = kNone;
+  for (const Index e : living_)
+    if (complex_.face_count(e) == 1 && (longest == kNone || length(e) > length(longest))) longest = e;
+  if (longest == kNone) return false;
+  const auto ends = complex_.ends(longest);
+  complex_.delete_face(complex_.first_corner(longest) / 3);
+  complex_.delete_edge(longest);
+  ++counts_.thinned_faces;
+  for (const Index node : ends) reopen_refused(node);
+  return true;
+}
+
+inline void SkeletonDecimater::delete_largest_face() {
+  Index largest = kNone;
+  double largest_area = -1.0;
+  for (const Index e : living_)
+    for (Index c = complex_.first_corner(e); c != kNone; c = complex_.next_corner(c)) {
+      const auto darts = complex_.face_darts(c / 3);
+      const Vector3& p = nodes_[complex_.origin(darts[0])].position;
+      const Vector3 a = nodes_[complex_.origin(darts[1])].position - p,
+                    b = nodes_[complex_.origin(darts[2])].position - p;
+      const double area = a.cross(b).norm();
+      if (area > largest_area || (area == largest_area && c / 3 < largest)) {
+        largest = c / 3;
+        largest_area = area;
+      }
+    }
+  complex_.delete_face(largest);
+  ++counts_.deleted_faces;
+}
+
+// Without faces, loops that depend on others by their labels are the traces of deleted faces: cut them,
+// longest edges first. Loops without any label go too.
+inline bool SkeletonDecimater::cut_surplus_loops() {
+  const std::vector<Index> surplus = surplus_edges(complex_, [&](Index a, Index b) {
+    return std::make_pair(length(a), a) < std::make_pair(length(b), b);
+  });
+  for (const Index e : surplus) {
+    const auto ends = complex_.ends(e);
+    complex_.delete_edge(e);
+    ++counts_.deleted_edges;
+    for (const Index node : ends) reopen_refused(node);
+  }
+  return !surplus.empty();
+}
+
+// ---- result
+// ----------------------------------------------------------------------------------------------------------
+
+inline CollapsedSkeleton SkeletonDecimater::result() const {
+  CollapsedSkeleton skeleton;
+  skeleton.counts = counts_;
+  std::vector<Index> number(sets_.size(), kNone), parent(parent_);
+  const auto root = [&](Index v) {
+    while (parent[v] != kNone) {
+      if (parent[parent[v]] != kNone) parent[v] = parent[parent[v]];
+      v = parent[v];
+    }
+    return v;
+  };
+  skeleton.node_of_vertex.assign(sets_.size(), kNone);
+  for (Index v = 0; v < complex_.vertex_capacity(); ++v) {
+    const Index node = root(v);
+    if (!complex_.is_vertex(node)) continue;
+    if (number[node] == kNone) {
+      number[node] = static_cast<Index>(skeleton.nodes.size());
+      const MergingSet& set = sets_[node];
+      skeleton.nodes.push_back({set.position(), set.area(), set.perimeter(), set.error(), set.axis(), set});
+    }
+    skeleton.node_of_vertex[v] = number[node];
+  }
+  for (const Index e : detail::living_edges(complex_)) {
+    const auto [u, v] = complex_.ends(e);
+    const bool forward = number[u] < number[v];
+    skeleton.edges.push_back({std::min(number[u], number[v]), std::max(number[u], number[v]),
+                              complex_.label(forward ? 2 * e : 2 * e + 1)});
+  }
+  std::stable_sort(skeleton.edges.begin(), skeleton.edges.end(),
+                   [](const CollapsedEdge& a, const CollapsedEdge& b) {
+                     return a.first != b.first ? a.first < b.first : a.second < b.second;
+                   });
+  return skeleton;
+}
+
+inline CollapsedSkeleton collapse_complex(SkeletonComplex complex, std::vector<MergingSet> sets,
+                                          const CollapseOptions& options, const Execution& execution) {
+  SkeletonDecimater decimater(std::move(complex), std::move(sets), options);
+  decimater.run(execution);
+  return decimater.result();
+}
+
+}  // namespace mspskel
