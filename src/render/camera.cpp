@@ -13,12 +13,8 @@ Eigen::Matrix3d surface_covariance(const DrawSurface& surface, double& area) {
   area = 0.0;
   Vector3 mean = Vector3::Zero();
   Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
-  if (surface.triangles.empty()) return moment;
-  const Vector3 base =
-      surface.points[surface.triangles.front()[0]];  // keeps the moments from cancelling far away
   for (const auto& t : surface.triangles) {
-    const Vector3 a = surface.points[t[0]] - base, b = surface.points[t[1]] - base,
-                  c = surface.points[t[2]] - base;
+    const Vector3 a = surface.points[t[0]], b = surface.points[t[1]], c = surface.points[t[2]];
     const double w = 0.5 * (b - a).cross(c - a).norm();
     const Vector3 sum = a + b + c;
     area += w;

@@ -133,7 +133,7 @@ void draw_axes(Image& image, const Plot& plot, const ChartOptions& options) {
     return (low + high - text_length(text, kText)) / 2;
   };
   draw_text(image, middle(0, image.width, options.title), 8, options.title, style);
-  draw_text(image, middle(plot.left, plot.right, options.x_label), image.height - kGlyphHeight - 6,
+  draw_text(image, middle(plot.left, plot.right, options.x_label), image.height - kGlyphHeight - 8,
             options.x_label, style);
   draw_text(image, 6, middle(plot.top, plot.bottom, options.y_label), options.y_label, {kText, kInk, true});
 }

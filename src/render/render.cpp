@@ -5,6 +5,7 @@
 #include <string>
 
 #include "outside.h"
+#include "scene.h"
 #include "shade.h"
 
 namespace mspskel {
@@ -20,35 +21,6 @@ void require_range(const char* name, double value, double low, double high) {
   };
   throw UsageError(std::string("render option ") + name + " is " + text(value) + ", but must be " +
                    text(low) + " to " + text(high));
-}
-
-void validate_scene(const RenderScene& scene) {
-  if (!scene.vertex_color.empty() && scene.vertex_color.size() != scene.surface.points.size()) {
-    throw UsageError("render: " + std::to_string(scene.vertex_color.size()) + " vertex colours for " +
-                     std::to_string(scene.surface.points.size()) + " vertices");
-  }
-  const auto node_count = static_cast<Index>(scene.skeleton.nodes.size());
-  for (Index i = 0; i < node_count; ++i) {
-    if (!scene.skeleton.nodes[i].position.allFinite()) {
-      throw MeshError("skeleton node " + std::to_string(i) + " is not finite");
-    }
-  }
-  for (const auto& edge : scene.skeleton.edges) {
-    for (const Index node : edge) {
-      if (node < 0 || node >= node_count) {
-        throw MeshError("a skeleton edge has the node " + std::to_string(node) + ", but there are " +
-                        std::to_string(node_count) + " nodes");
-      }
-    }
-  }
-  for (const Polyline& line : scene.lines) {
-    for (const Vector3& p : line.points) {
-      if (!p.allFinite()) throw MeshError("a line of the scene has a point that is not finite");
-    }
-  }
-  if (scene.surface.points.empty() && node_count == 0 && scene.lines.empty()) {
-    throw UsageError("render: the scene is empty");
-  }
 }
 
 std::vector<Vector3> points_beside_surface(const RenderScene& scene) {
@@ -152,12 +124,20 @@ void validate(const RenderOptions& options) {
 
 std::vector<SkeletonPiece> outside_pieces(const RenderScene& scene) {
   validate_scene(scene);
-  return outside_pieces(scene, make_draw_surface(scene.surface));
+  const NormalisedScene normalised = normalise(scene);
+  std::vector<SkeletonPiece> pieces =
+      outside_pieces(normalised.scene, make_draw_surface(normalised.scene.surface));
+  for (SkeletonPiece& piece : pieces) {
+    piece.begin = normalised.frame.to_model(piece.begin);
+    piece.end = normalised.frame.to_model(piece.end);
+  }
+  return pieces;
 }
 
-Image render(const RenderScene& scene, const RenderOptions& options, const Execution& execution) {
+Image render(const RenderScene& model, const RenderOptions& options, const Execution& execution) {
   validate(options);
-  validate_scene(scene);
+  validate_scene(model);
+  const RenderScene scene = normalise(model).scene;
   constexpr int kBandHeight = 4;  // pixels
   const int band_count = (options.height + kBandHeight - 1) / kBandHeight;
   const int columns = options.view_count <= 4

@@ -1,9 +1,7 @@
 #include "surface.h"
 
 #include <cmath>
-#include <string>
 
-#include "mspskel/base/error.h"
 #include "mspskel/render/render.h"
 
 namespace mspskel {
@@ -22,18 +20,8 @@ namespace render_detail {
 namespace {
 
 void add_triangles(const PolygonSoup& soup, DrawSurface& surface) {
-  const auto count = static_cast<Index>(soup.points.size());
-  for (Index v = 0; v < count; ++v) {
-    if (!soup.points[v].allFinite()) throw MeshError("vertex " + std::to_string(v) + " is not finite");
-  }
   for (std::size_t f = 0; f < soup.polygon_count(); ++f) {
     const Index begin = soup.begin[f], end = soup.begin[f + 1];
-    for (Index i = begin; i < end; ++i) {
-      if (soup.corners[i] < 0 || soup.corners[i] >= count) {
-        throw MeshError("face " + std::to_string(f) + " has the corner " + std::to_string(soup.corners[i]) +
-                        ", but there are " + std::to_string(count) + " vertices");
-      }
-    }
     for (Index i = begin + 1; i + 1 < end; ++i) {
       surface.triangles.push_back({soup.corners[begin], soup.corners[i], soup.corners[i + 1]});
     }

@@ -15,7 +15,7 @@ struct DrawSurface {
   std::vector<Eigen::Vector3f> corner_normals;
 };
 
-// Throws MeshError for a corner that is no point, or a point that is not finite.
+// Precondition: points are finite and corners in range.
 DrawSurface make_draw_surface(const PolygonSoup& soup);
 
 }  // namespace mspskel::render_detail

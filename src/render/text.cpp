@@ -5,7 +5,7 @@
 namespace mspskel {
 namespace {
 
-constexpr int kAdvance = 6, kRows = 7, kColumns = 5;  // font pixels
+constexpr int kAdvance = 6, kRows = 9, kColumns = 5;  // font pixels
 
 const render_detail::Glyph& glyph(char c) {
   const int code = static_cast<unsigned char>(c);

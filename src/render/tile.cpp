@@ -39,7 +39,7 @@ Image tile(const std::vector<Image>& images, const std::vector<std::string>& lab
   }
   const int count = static_cast<int>(images.size());
   const int columns = std::min(options.columns, count), rows = (count + columns - 1) / columns;
-  const int label_height = labels.empty() ? 0 : 11 * options.text_scale;
+  const int label_height = labels.empty() ? 0 : 12 * options.text_scale;
   const int cell_width = width + options.gap, cell_height = height + label_height + options.gap;
   Image sheet(options.gap + columns * cell_width, options.gap + rows * cell_height, options.background);
   for (int i = 0; i < count; ++i) {

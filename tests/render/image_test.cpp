@@ -67,11 +67,11 @@ TEST_CASE("images without pixels are refused") {
 TEST_CASE("every glyph but the space is drawn inside its box, and no two look alike") {
   std::vector<std::vector<std::uint8_t>> seen;
   for (char c = 33; c < 127; ++c) {
-    Image image(7, 9);
+    Image image(7, 11);
     draw_text(image, 1, 1, std::string(1, c), {1, kBlack, false});
     CHECK(count(image, kBlack) > 0);
-    Image inner(5, 7);
-    for (int y = 0; y < 7; ++y) {
+    Image inner(5, 9);
+    for (int y = 0; y < 9; ++y) {
       for (int x = 0; x < 5; ++x) inner.set(x, y, image.at(x + 1, y + 1));
     }
     CHECK(count(inner, kBlack) == count(image, kBlack));
@@ -84,10 +84,10 @@ TEST_CASE("text that runs upwards is the same text turned, and what is off the i
   const std::string text = "Slice 7";
   const int length = text_length(text, 2);
   CHECK(length == 2 * (6 * 7 - 1));
-  Image level(length, 14), upright(14, length);
+  Image level(length, 18), upright(18, length);
   draw_text(level, 0, 0, text, {2, kBlack, false});
   draw_text(upright, 0, 0, text, {2, kBlack, true});
-  for (int y = 0; y < 14; ++y) {
+  for (int y = 0; y < 18; ++y) {
     for (int x = 0; x < length; ++x) CHECK((level.at(x, y) == upright.at(y, length - 1 - x)));
   }
   CHECK_NOTHROW(draw_text(level, -50, -5, text));

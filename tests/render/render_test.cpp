@@ -224,6 +224,20 @@ TEST_CASE("options and scenes that cannot be drawn are refused by name") {
   CHECK_THROWS_AS(render(broken), MeshError);
 }
 
+TEST_CASE("tiny and huge models are drawn like others, and what has no extent in numbers is refused") {
+  const Image image = render(pierced_ball(), one_view(0, 0));
+  for (const int power : {-600, 900}) {
+    RenderScene scene = pierced_ball();
+    for (Vector3& p : scene.surface.points) p *= std::ldexp(1.0, power);
+    for (SkeletonNode& n : scene.skeleton.nodes) n.position *= std::ldexp(1.0, power);
+    CHECK(render(scene, one_view(0, 0)).pixels == image.pixels);
+    CHECK(outside_pieces(scene).back().outside);
+  }
+  RenderScene scene = pierced_ball();
+  scene.skeleton = segment({-1.7e308, 0, 0}, {1.7e308, 0, 0});
+  CHECK_THROWS_AS(render(scene), MeshError);
+}
+
 TEST_CASE("a progress callback can stop the rendering") {
   Execution execution;
   execution.progress = [](const char*, double) { return false; };

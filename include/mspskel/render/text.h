@@ -1,4 +1,5 @@
-// Text in pictures with a bitmap font of our own: 5 x 7 pixels a glyph, printable ASCII.
+// Text in pictures with a bitmap font of our own: printable ASCII, 5 x 7 pixels a glyph and two
+// rows for what hangs below the baseline.
 #pragma once
 
 #include <string>
@@ -13,7 +14,7 @@ struct TextStyle {
   bool upwards = false;  // turned by a quarter, running from bottom to top
 };
 
-// Pixels along the text, without the gap after the last glyph; 7 * scale across. Other bytes count as '?'.
+// Pixels along the text, without the gap after the last glyph; 9 * scale across. Other bytes count as '?'.
 int text_length(const std::string& text, int scale);
 
 // Draws text whose box has its top left corner at (x, y); pixels outside the image are left out.
