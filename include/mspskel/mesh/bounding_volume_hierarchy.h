@@ -35,6 +35,8 @@ class BoundingVolumeHierarchy {
  public:
   // O(faces log faces).
   explicit BoundingVolumeHierarchy(const SurfaceSnapshot& snapshot);
+  // Over some of the faces: queries see only these, and still name them as the snapshot does.
+  BoundingVolumeHierarchy(const SurfaceSnapshot& snapshot, const std::vector<Index>& faces);
 
   Index face_count() const { return static_cast<Index>(triangles_.size()); }
 

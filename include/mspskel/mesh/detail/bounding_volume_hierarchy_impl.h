@@ -1,6 +1,7 @@
 #pragma once
 
-#include "mspskel/base/error.h"
+#include <numeric>
+
 #include "mspskel/mesh/detail/segment_triangle.h"
 
 namespace mspskel {
@@ -16,22 +17,30 @@ inline PrimitiveBox box_of(const Triangle& t, Index primitive) {
 
 }  // namespace detail
 
-inline BoundingVolumeHierarchy::BoundingVolumeHierarchy(const SurfaceSnapshot& s) {
-  std::vector<detail::Triangle> input(s.face_count());
-  std::vector<detail::PrimitiveBox> boxes(s.face_count());
-  for (Index f = 0; f < s.face_count(); ++f) {
-    input[f] = {s.position[s.origin[3 * f]], s.position[s.origin[3 * f + 1]],
-                s.position[s.origin[3 * f + 2]]};
-    boxes[f] = detail::box_of(input[f], f);
-  }
+inline BoundingVolumeHierarchy::BoundingVolumeHierarchy(const SurfaceSnapshot& s)
+    : BoundingVolumeHierarchy(s, [&] {
+        std::vector<Index> all(s.face_count());
+        std::iota(all.begin(), all.end(), 0);
+        return all;
+      }()) {}
+
+inline BoundingVolumeHierarchy::BoundingVolumeHierarchy(const SurfaceSnapshot& s,
+                                                        const std::vector<Index>& faces) {
+  const auto triangle = [&](Index f) {
+    return detail::Triangle{s.position[s.origin[3 * f]], s.position[s.origin[3 * f + 1]],
+                            s.position[s.origin[3 * f + 2]]};
+  };
+  std::vector<detail::PrimitiveBox> boxes;
+  boxes.reserve(faces.size());
+  for (const Index f : faces) boxes.push_back(detail::box_of(triangle(f), f));
   double reach = 0.0;
   for (const Vector3& p : s.position) reach = std::max(reach, p.cwiseAbs().maxCoeff());
   tree_.build(boxes, reach);
-  triangles_.resize(boxes.size());
-  face_.resize(boxes.size());
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    face_[i] = boxes[i].primitive;
-    triangles_[i] = input[face_[i]];
+  triangles_.reserve(boxes.size());
+  face_.reserve(boxes.size());
+  for (const detail::PrimitiveBox& box : boxes) {
+    face_.push_back(box.primitive);
+    triangles_.push_back(triangle(box.primitive));
   }
 }
 

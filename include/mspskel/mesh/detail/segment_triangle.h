@@ -17,9 +17,9 @@ inline bool segments_meet(const Vector3& p, const Vector3& q, const Vector3& a, 
          orientation(a, b, p, x, y) * orientation(a, b, q, x, y) <= 0;
 }
 
-// Whether the segment meets the closed triangle, all in one plane. Projected along the longest axis of the
+// Whether the segment meets the closed triangle after projection along the longest axis of the
 // normal.
-inline bool segment_meets_coplanar(const Vector3& p, const Vector3& q, const Triangle& t) {
+inline bool shadows_meet(const Vector3& p, const Vector3& q, const Triangle& t) {
   const Vector3 normal = (t.b - t.a).cross(t.c - t.a);
   int drop = 0;
   const double longest =
@@ -42,10 +42,12 @@ inline bool segment_meets_triangle(const Vector3& p, const Vector3& q, const Tri
   // With a corner of the triangle as pivot, small triangles far from p lose no digits.
   const int sp = orientation(t.b, t.c, p, t.a), sq = orientation(t.b, t.c, q, t.a);
   if (sp * sq > 0) return false;
-  if (sp == 0 && sq == 0) return segment_meets_coplanar(p, q, t);
-  if (sp * sq == 0 && !with_ends) return false;
+  if (sp * sq == 0 && (sp != 0 || sq != 0) && !with_ends) return false;
   const int u = orientation(p, q, t.a, t.b), v = orientation(p, q, t.b, t.c), w = orientation(p, q, t.c, t.a);
-  return (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
+  if (!((u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0))) return false;
+  // In doubt the shadows in the triangle's plane must meet as well, or everything nearly flat would count.
+  const bool doubt = sp * sq == 0 || u * v * w == 0;
+  return !doubt || shadows_meet(p, q, t);
 }
 
 }  // namespace detail

@@ -1,0 +1,27 @@
+// Radii of the maximal inscribed balls round the skeleton's nodes.
+#pragma once
+
+#include "mspskel/base/progress.h"
+#include "mspskel/graph/curve_skeleton.h"
+#include "mspskel/mesh/bounding_volume_hierarchy.h"
+
+namespace mspskel {
+
+// Distance from a point in model coordinates to the surface, model units, whichever side the point is on.
+inline double surface_distance(const SurfaceSnapshot& snapshot, const BoundingVolumeHierarchy& hierarchy,
+                               const Vector3& model_point) {
+  return snapshot.frame.scale * hierarchy.distance(snapshot.frame.to_normalised(model_point));
+}
+
+// Sets every node's radius to its distance to the surface. O(nodes · log faces), parallel. Throws Cancelled
+// if the progress callback asks to stop; radii are then partly set.
+inline void set_radii(const SurfaceSnapshot& snapshot, const BoundingVolumeHierarchy& hierarchy,
+                      CurveSkeleton& skeleton, const Execution& execution = {}) {
+  parallel_for(
+      static_cast<Index>(skeleton.nodes.size()), "radius", execution, [] { return 0; },
+      [&](Index i, int&) {
+        skeleton.nodes[i].radius = surface_distance(snapshot, hierarchy, skeleton.nodes[i].position);
+      });
+}
+
+}  // namespace mspskel

@@ -1,0 +1,21 @@
+// Pairs of triangles that meet where they should not: whether the surface bounds a solid at all.
+#pragma once
+
+#include "mspskel/base/progress.h"
+#include "mspskel/mesh/bounding_volume_hierarchy.h"
+
+namespace mspskel {
+
+// Number of pairs of faces that have more in common than the corners that they share: crossing, touching or
+// overlapping within rounding (signs of volumes, see detail/orientation.h; doubt counts as contact).
+// Triangles without area are left to their neighbours. Stops as soon as `limit` pairs are known, so limit = 1
+// answers yes or no. O((faces + pairs whose boxes overlap) · log faces), parallel; the count does not depend
+// on the threads. Throws Cancelled if the progress callback asks to stop.
+inline Index count_self_intersections(const SurfaceSnapshot& snapshot,
+                                      const BoundingVolumeHierarchy& hierarchy,
+                                      Index limit = std::numeric_limits<Index>::max(),
+                                      const Execution& execution = {});
+
+}  // namespace mspskel
+
+#include "mspskel/mesh/detail/self_intersection_impl.h"
