@@ -16,9 +16,17 @@ struct FieldValue {
   double xx = 0.0, xy = 0.0, yy = 0.0;
 };
 
+// Point charges on contours, in flat arrays. Converts from points on purpose.
+struct ForceSamples {
+  ForceSamples(const std::vector<Vector2>& points);
+
+  Index count = 0;
+  std::vector<double> x, y;  // padded to whole blocks by points too far away to be felt
+};
+
 // Eq. 4.1 literally: sum over force samples b of (p − b) / |p − b|³. Units: 1 / length². Not finite at a
-// force sample.
-Vector2 sampled_repulsive_force(const std::vector<Vector2>& force_samples, const Vector2& p);
+// force sample. Cost: O(samples), vectorised.
+Vector2 sampled_repulsive_force(const ForceSamples& force_samples, const Vector2& p);
 
 // Eq. 4.1 integrated along all contours of the region: no sampling parameter, and a wall at the contour,
 // where the potential is infinite. For a segment ab of length L with d1 = p − a, d2 = p − b, r = |d|, u = d /

@@ -49,6 +49,8 @@ enum class SkeletalPointStop {
   kDegenerate,         // no region to speak of: the contour's centre
 };
 
+inline constexpr std::size_t kSkeletalPointStops = 6;
+
 struct SkeletalPoint {
   Vector2 position = Vector2::Zero();
   Index votes = 0;       // samples that converged to it

@@ -7,7 +7,7 @@
 #include "mspskel/center/planar_region.h"
 #include "mspskel/center/repulsive_force.h"
 
-namespace mspskel::detail {
+namespace mspskel::detail::slice_centre {
 
 struct Descent {
   Vector2 position = Vector2::Zero();
@@ -98,4 +98,4 @@ Descent descend(const PlanarRegion& region, const Field& field, Vector2 start, d
   return d;
 }
 
-}  // namespace mspskel::detail
+}  // namespace mspskel::detail::slice_centre

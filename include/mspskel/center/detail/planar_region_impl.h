@@ -139,15 +139,17 @@ inline bool PlanarRegion::contains(const Vector2& p) const {
 }
 
 inline double PlanarRegion::distance(const Vector2& p) const {
-  double best = std::numeric_limits<double>::infinity();
+  using Block = Eigen::Array<double, kBlock, 1>;
+  using Map = Eigen::Map<const Block>;
+  Block best = Block::Constant(std::numeric_limits<double>::infinity());
   for (const Ring& ring : rings_)
-    for (Index i = ring.begin; i < ring.begin + ring.segments; ++i) {
-      const double dx = p.x() - x_[i], dy = p.y() - y_[i];
-      const double along = std::clamp(dx * tx_[i] + dy * ty_[i], 0.0, length_[i]);
-      const double ex = dx - along * tx_[i], ey = dy - along * ty_[i];
-      best = std::min(best, ex * ex + ey * ey);
+    for (Index i = ring.begin; i < ring.begin + ring.segments; i += kBlock) {
+      const Map tx(tx_.data() + i), ty(ty_.data() + i), length(length_.data() + i);
+      const Block dx = p.x() - Map(x_.data() + i), dy = p.y() - Map(y_.data() + i);
+      const Block along = (dx * tx + dy * ty).max(0.0).min(length);
+      best = best.min((dx - along * tx).square() + (dy - along * ty).square());
     }
-  return std::sqrt(best);
+  return std::sqrt(best.minCoeff());
 }
 
 inline double PlanarRegion::first_hit(const Vector2& p, const Vector2& d) const {
@@ -184,7 +186,8 @@ inline std::vector<PlanarRegion::Sample> PlanarRegion::sample(Index ring_index, 
     Vector2 along = t;
     if (s - before <= kCorner * ring.perimeter) {  // at a corner: between the normals of its two segments
       Index h = i == ring.begin ? ring.begin + ring.points - 1 : i - 1;
-      while (length_[h] == 0) h = h == ring.begin ? ring.begin + ring.points - 1 : h - 1;
+      while (length_[h] <= kCorner * ring.perimeter && h != i)
+        h = h == ring.begin ? ring.begin + ring.points - 1 : h - 1;
       const Vector2 sum = t + Vector2(tx_[h], ty_[h]);
       if (sum.norm() > 1e-6) along = sum.normalized();
     }

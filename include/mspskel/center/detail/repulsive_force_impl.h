@@ -6,7 +6,7 @@
 #include <limits>
 
 namespace mspskel {
-namespace detail {
+namespace detail::slice_centre {
 
 // Local values only, so their alignment is nobody else's concern.
 using Block = Eigen::Array<double, PlanarRegion::kBlock, 1>;
@@ -53,24 +53,39 @@ struct RepulsiveSums {
   }
 };
 
-}  // namespace detail
+}  // namespace detail::slice_centre
 
-inline Vector2 sampled_repulsive_force(const std::vector<Vector2>& force_samples, const Vector2& p) {
-  double fx = 0, fy = 0;
-  for (const Vector2& b : force_samples) {
-    const double dx = p.x() - b.x(), dy = p.y() - b.y(), square = dx * dx + dy * dy;
-    const double weight = 1.0 / (square * std::sqrt(square));
+inline ForceSamples::ForceSamples(const std::vector<Vector2>& points)
+    : count(static_cast<Index>(points.size())) {
+  // Its square and cube are finite, and what is divided by them vanishes beside any sum of the others.
+  constexpr double kFarAway = 1e100;
+  const Index padded = (count + PlanarRegion::kBlock - 1) / PlanarRegion::kBlock * PlanarRegion::kBlock;
+  x.assign(static_cast<std::size_t>(padded), kFarAway);
+  y.assign(static_cast<std::size_t>(padded), kFarAway);
+  for (Index i = 0; i < count; ++i) {
+    x[i] = points[i].x();
+    y[i] = points[i].y();
+  }
+}
+
+inline Vector2 sampled_repulsive_force(const ForceSamples& force_samples, const Vector2& p) {
+  using detail::slice_centre::Block;
+  using detail::slice_centre::BlockMap;
+  Block fx = Block::Zero(), fy = Block::Zero();
+  for (std::size_t i = 0; i < force_samples.x.size(); i += PlanarRegion::kBlock) {
+    const Block dx = p.x() - BlockMap(&force_samples.x[i]), dy = p.y() - BlockMap(&force_samples.y[i]);
+    const Block square = dx * dx + dy * dy, weight = 1.0 / (square * square.sqrt());
     fx += weight * dx;
     fy += weight * dy;
   }
-  return {fx, fy};
+  return {fx.sum(), fy.sum()};
 }
 
 inline FieldValue repulsive_field(const PlanarRegion& region, const Vector2& p) {
-  detail::PointTable table;
-  detail::RepulsiveSums sums;
-  detail::Block logs = detail::Block::Zero();
-  constexpr Index kChunk = detail::PointTable::kPoints;
+  detail::slice_centre::PointTable table;
+  detail::slice_centre::RepulsiveSums sums;
+  detail::slice_centre::Block logs = detail::slice_centre::Block::Zero();
+  constexpr Index kChunk = detail::slice_centre::PointTable::kPoints;
   for (const PlanarRegion::Ring& ring : region.rings())
     for (Index chunk = 0; chunk < ring.segments; chunk += kChunk) {
       const Index begin = ring.begin + chunk, count = std::min(kChunk, ring.segments - chunk);

@@ -8,7 +8,7 @@
 #include "mspskel/center/detail/descent.h"
 
 namespace mspskel {
-namespace detail {
+namespace detail::slice_centre {
 
 // Where samples came to rest, before and after merging.
 struct Minimum {
@@ -91,7 +91,7 @@ inline SkeletalPoint deepest_sample(const PlanarRegion& region, Index count) {
 }
 
 // Steps one and two of 4.2.2: force samples on every ring, at the spacing of the outer one's.
-inline std::vector<Vector2> make_force_samples(const PlanarRegion& region, Index count) {
+inline ForceSamples make_force_samples(const PlanarRegion& region, Index count) {
   std::vector<Vector2> samples;
   for (Index r = 0; r < static_cast<Index>(region.rings().size()); ++r) {
     const double share = region.rings()[r].perimeter / region.perimeter();
@@ -101,17 +101,19 @@ inline std::vector<Vector2> make_force_samples(const PlanarRegion& region, Index
   return samples;
 }
 
-// Step three of 4.2.2: along the force, until ‖F(i+1)‖ > ‖F(i)‖ for every step down to a thousandth of the
-// merge radius's scale. A step is at most `share` < 1 of the distance to the contour, so it cannot cross it.
-inline Minimum trace_moving_sample(const PlanarRegion& region, const std::vector<Vector2>& force_samples,
-                                   Vector2 p, const SkeletalPointOptions& options, Index* iterations) {
-  constexpr double kSmallest = 1e-5,
-                   kVanished = 1e-2;  // in perimeters; in forces of a unit charge at one perimeter
+// Step three of 4.2.2: along the force, until ‖F(i+1)‖ > ‖F(i)‖ for every step down to the smallest. A step
+// is at most a share below 1 of the distance to the contour, so it cannot cross it.
+inline Minimum trace_moving_sample(const PlanarRegion& region, const ForceSamples& force_samples, Vector2 p,
+                                   const SkeletalPointOptions& options, Index* iterations) {
+  constexpr double kSmallest = 1e-4;  // in perimeters
+  // In forces of all samples put together at a distance of one perimeter: in a disc, 1e-3 perimeters off its
+  // centre.
+  constexpr double kVanished = 0.1;
   const double unit = region.perimeter();
   Vector2 force = sampled_repulsive_force(force_samples, p);
   double limit = unit;  // a halved step only doubles again
   Minimum rest{p, force.norm(), 1, SkeletalPointStop::kIterations};
-  const double vanished = kVanished * static_cast<double>(force_samples.size()) / (unit * unit);
+  const double vanished = kVanished * force_samples.count / (unit * unit);
   for (Index i = 0; i < options.max_iterations; ++i) {
     double step = std::min(limit, options.step * region.distance(p));
     const double norm = force.norm();
@@ -137,7 +139,7 @@ inline Minimum trace_moving_sample(const PlanarRegion& region, const std::vector
 }
 
 inline SkeletalPoint by_sampled_force(const PlanarRegion& region, const SkeletalPointOptions& options) {
-  const std::vector<Vector2> force_samples = make_force_samples(region, options.force_samples);
+  const ForceSamples force_samples = make_force_samples(region, options.force_samples);
   const double unit = region.perimeter();
   std::vector<Minimum> rests;
   SkeletalPoint result;
@@ -298,22 +300,24 @@ inline void require(bool good, const char* option, const char* range) {
   if (!good) throw UsageError(std::string("skeletal point: ") + option + " has to be " + range);
 }
 
-}  // namespace detail
+}  // namespace detail::slice_centre
 
 inline void validate(const SkeletalPointOptions& o) {
   const auto count = [](Index x, Index low, Index high) { return x >= low && x <= high; };
-  detail::require(count(o.moving_samples, 1, 10000), "moving_samples", "1 to 10000");
-  detail::require(count(o.force_samples, 3, 100000), "force_samples", "3 to 100000");
-  detail::require(o.displacement > 0 && o.displacement <= 0.1, "displacement", "above 0 and at most 0.1");
-  detail::require(o.step > 0 && o.step <= 0.9, "step", "above 0 and at most 0.9");
-  detail::require(o.merge_radius >= 0 && o.merge_radius <= 1, "merge_radius", "0 to 1");
-  detail::require(count(o.starts, 1, 10000), "starts", "1 to 10000");
-  detail::require(o.start_depth > 0 && o.start_depth <= 0.9, "start_depth", "above 0 and at most 0.9");
-  detail::require(o.max_segments == 0 || count(o.max_segments, 8, 1000000), "max_segments",
-                  "0, or 8 to 1000000");
-  detail::require(count(o.rays, 8, 100000), "rays", "8 to 100000");
-  detail::require(o.tolerance >= 1e-12 && o.tolerance <= 0.1, "tolerance", "1e-12 to 0.1");
-  detail::require(count(o.max_iterations, 1, 100000), "max_iterations", "1 to 100000");
+  detail::slice_centre::require(count(o.moving_samples, 1, 10000), "moving_samples", "1 to 10000");
+  detail::slice_centre::require(count(o.force_samples, 3, 100000), "force_samples", "3 to 100000");
+  detail::slice_centre::require(o.displacement > 0 && o.displacement <= 0.1, "displacement",
+                                "above 0 and at most 0.1");
+  detail::slice_centre::require(o.step > 0 && o.step <= 0.9, "step", "above 0 and at most 0.9");
+  detail::slice_centre::require(o.merge_radius >= 0 && o.merge_radius <= 1, "merge_radius", "0 to 1");
+  detail::slice_centre::require(count(o.starts, 1, 10000), "starts", "1 to 10000");
+  detail::slice_centre::require(o.start_depth > 0 && o.start_depth <= 0.9, "start_depth",
+                                "above 0 and at most 0.9");
+  detail::slice_centre::require(o.max_segments == 0 || count(o.max_segments, 8, 1000000), "max_segments",
+                                "0, or 8 to 1000000");
+  detail::slice_centre::require(count(o.rays, 8, 100000), "rays", "8 to 100000");
+  detail::slice_centre::require(o.tolerance >= 1e-12 && o.tolerance <= 0.1, "tolerance", "1e-12 to 0.1");
+  detail::slice_centre::require(count(o.max_iterations, 1, 100000), "max_iterations", "1 to 100000");
 }
 
 inline SkeletalPoint find_skeletal_point(const PlanarRegion& region, const SkeletalPointOptions& options) {
@@ -327,13 +331,13 @@ inline SkeletalPoint find_skeletal_point(const PlanarRegion& region, const Skele
   if (!region.valid()) return result;
   switch (options.method) {
     case SkeletalPointMethod::kSampledForce:
-      return detail::by_sampled_force(region, options);
+      return detail::slice_centre::by_sampled_force(region, options);
     case SkeletalPointMethod::kAreaField:
-      return detail::by_area_field(region, options);
+      return detail::slice_centre::by_area_field(region, options);
     case SkeletalPointMethod::kVisibleField:
-      return detail::by_visible_field(region, options);
+      return detail::slice_centre::by_visible_field(region, options);
     default:
-      return detail::by_closed_form(region, options);
+      return detail::slice_centre::by_closed_form(region, options);
   }
 }
 

@@ -1,0 +1,120 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace mspskel {
+
+inline void flatten_slice(const SurfaceSnapshot& surface, SliceRegion& slice) {
+  const Contour& contour = slice.contour;
+  const auto count = static_cast<Index>(contour.point.size());
+  const auto at_vertex = [&](Index i) {
+    return slice.through != kNone && surface.target(contour.halfedge[(i + count) % count]) == slice.through;
+  };
+  // Every edge from the vertex's other side is crossed in the vertex itself: one point of the polygon.
+  Index first = 0;
+  while (first < count && !(at_vertex(first) && !at_vertex(first - 1))) ++first;
+  first %= std::max<Index>(count, 1);
+  std::vector<Vector3> points;
+  points.reserve(contour.point.size());
+  for (Index k = 0; k < count; ++k)
+    if (k == 0 || !at_vertex(first + k)) points.push_back(contour.point[(first + k) % count]);
+  if (points.empty()) {
+    slice.region = PlanarRegion();
+    return;
+  }
+  slice.frame = make_plane_frame(points, slice.plane.normal);
+  slice.region.set_outer(flatten(points, slice.frame));
+}
+
+inline bool may_have_holes(const SliceRegion& slice, const BoundingVolumeHierarchy& solid,
+                           const Vector2& from, int rays) {
+  constexpr double kMargin = 1e-6;  // in perimeters: the same contour, found by two ways
+  constexpr int kMaxRays = 64;
+  rays = std::clamp(rays, 1, kMaxRays);
+  std::array<double, kMaxRays> hit;
+  solid.ray_fan(slice.frame.to_space(from), slice.frame.u, slice.frame.v, rays, hit.data());
+  const double unit = slice.region.perimeter();
+  for (int k = 0; k < rays; ++k) {
+    const double angle = 2 * kPi * k / rays;
+    const double own = unit * slice.region.first_hit(from, unit * Vector2(std::cos(angle), std::sin(angle)));
+    if (hit[static_cast<std::size_t>(k)] < own - kMargin * unit) return true;
+  }
+  return false;
+}
+
+namespace detail::slice_centre {
+
+// Half-edges of the faces in the contour's box that lead from the plane's negative to its positive side,
+// ascending.
+inline std::vector<Index> crossings_near(const SliceRegion& slice, const SurfaceSnapshot& surface,
+                                         const BoundingVolumeHierarchy& solid) {
+  Eigen::AlignedBox3d box;
+  for (const Vector3& p : slice.contour.point) box.extend(p);
+  const Vector3& n = slice.plane.normal;
+  const auto positive = [&](Index v) {
+    const Vector3& p = surface.position[v];
+    // The sum in the order in which the tracer takes it, so that both see the same sign.
+    return v == slice.through || (n.x() * p.x() + n.y() * p.y() + n.z() * p.z()) - slice.plane.offset >= 0;
+  };
+  std::vector<Index> starts;
+  solid.for_each_in_box(box.min(), box.max(), [&](Index f) {
+    const bool s[3] = {positive(surface.origin[3 * f]), positive(surface.origin[3 * f + 1]),
+                       positive(surface.origin[3 * f + 2])};
+    for (Index i = 0; i < 3; ++i)
+      if (!s[i] && s[(i + 1) % 3]) starts.push_back(3 * f + i);
+    return true;
+  });
+  std::sort(starts.begin(), starts.end());
+  starts.erase(std::unique(starts.begin(), starts.end()), starts.end());
+  return starts;
+}
+
+// Whether most of a polygon lies in the region: contours of a plane may touch, but never cross.
+inline bool mostly_inside(const std::vector<Vector2>& polygon, const PlanarRegion& region) {
+  std::size_t inside = 0;
+  for (const Vector2& p : polygon) inside += region.contains(p) ? 1 : 0;
+  return 2 * inside > polygon.size();
+}
+
+}  // namespace detail::slice_centre
+
+inline Index add_hole_contours(const SliceTracer& tracer, const BoundingVolumeHierarchy& solid,
+                               SliceRegion& slice) {
+  const std::vector<Index> starts = detail::slice_centre::crossings_near(slice, tracer.surface(), solid);
+  std::vector<bool> seen(starts.size(), false);
+  const auto mark = [&](const Contour& contour) {
+    for (const Index h : contour.halfedge) {
+      const auto it = std::lower_bound(starts.begin(), starts.end(), h);
+      if (it != starts.end() && *it == h) seen[static_cast<std::size_t>(it - starts.begin())] = true;
+    }
+  };
+  mark(slice.contour);
+  std::vector<std::pair<double, std::vector<Vector2>>> holes;  // by area
+  Contour contour;
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    if (seen[i]) continue;
+    tracer.trace(starts[i], slice.plane, slice.through, contour);
+    seen[i] = true;
+    mark(contour);
+    if (!(contour.area < 0)) continue;
+    std::vector<Vector2> polygon = flatten(contour.point, slice.frame);
+    if (detail::slice_centre::mostly_inside(polygon, slice.region))
+      holes.emplace_back(contour.area, std::move(polygon));
+  }
+  // The largest first: a smaller one inside it belongs to an island.
+  std::stable_sort(holes.begin(), holes.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  Index count = 0;
+  for (const auto& hole : holes) {
+    if (!detail::slice_centre::mostly_inside(hole.second, slice.region)) continue;
+    slice.region.add_hole(hole.second);
+    ++count;
+  }
+  return count;
+}
+
+}  // namespace mspskel
