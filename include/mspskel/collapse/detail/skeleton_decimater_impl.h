@@ -283,6 +283,26 @@ inline bool SkeletonDecimater::cut_surplus_loops() {
 // ---- result
 // ----------------------------------------------------------------------------------------------------------
 
+namespace detail {
+
+// The edges that are left, between the numbers of their ends.
+inline std::vector<CollapsedEdge> collapsed_edges(const SkeletonComplex& complex,
+                                                  const std::vector<Index>& number) {
+  std::vector<CollapsedEdge> edges;
+  for (const Index e : living_edges(complex)) {
+    const auto [u, v] = complex.ends(e);
+    const bool forward = number[u] < number[v];
+    edges.push_back({std::min(number[u], number[v]), std::max(number[u], number[v]),
+                     complex.label(forward ? 2 * e : 2 * e + 1)});
+  }
+  std::stable_sort(edges.begin(), edges.end(), [](const CollapsedEdge& a, const CollapsedEdge& b) {
+    return a.first != b.first ? a.first < b.first : a.second < b.second;
+  });
+  return edges;
+}
+
+}  // namespace detail
+
 inline CollapsedSkeleton SkeletonDecimater::result() const {
   CollapsedSkeleton skeleton;
   skeleton.counts = counts_;
@@ -305,16 +325,7 @@ inline CollapsedSkeleton SkeletonDecimater::result() const {
     }
     skeleton.node_of_vertex[v] = number[node];
   }
-  for (const Index e : detail::living_edges(complex_)) {
-    const auto [u, v] = complex_.ends(e);
-    const bool forward = number[u] < number[v];
-    skeleton.edges.push_back({std::min(number[u], number[v]), std::max(number[u], number[v]),
-                              complex_.label(forward ? 2 * e : 2 * e + 1)});
-  }
-  std::stable_sort(skeleton.edges.begin(), skeleton.edges.end(),
-                   [](const CollapsedEdge& a, const CollapsedEdge& b) {
-                     return a.first != b.first ? a.first < b.first : a.second < b.second;
-                   });
+  skeleton.edges = detail::collapsed_edges(complex_, number);
   return skeleton;
 }
 
