@@ -37,6 +37,36 @@ Rows band_range(double low, double high, const View& view, int band_count) {
   return {band(low - view.margin), band(high + view.margin)};
 }
 
+struct TubeHit {
+  double depth = std::numeric_limits<double>::infinity();
+  Vector3 normal = Vector3::Zero();  // in samples' axes
+};
+
+void hit_ball(const Vector3& centre, double radius, double x, double y, TubeHit& hit) {
+  const double dx = x - centre.x(), dy = y - centre.y(), height2 = radius * radius - dx * dx - dy * dy;
+  if (height2 < 0) return;
+  const double height = std::sqrt(height2);
+  if (centre.z() - height < hit.depth) hit = {centre.z() - height, Vector3(dx, dy, -height) / radius};
+}
+
+// Where the line of sight through (x, y) first meets the tube: its side, or the ball at one of its ends.
+TubeHit hit_tube(const Tube& tube, double x, double y) {
+  TubeHit hit;
+  hit_ball(tube.begin, tube.radius, x, y, hit);
+  const Vector3 run = tube.end - tube.begin;
+  const double length = run.norm();
+  if (length == 0.0) return hit;
+  hit_ball(tube.end, tube.radius, x, y, hit);
+  const Vector3 u = run / length, from(x - tube.begin.x(), y - tube.begin.y(), 0.0);
+  // |from + t z|^2 - ((from + t z) . u)^2 = radius^2, a quadratic in t.
+  const double along = from.dot(u), p = 1.0 - u.z() * u.z(), q = along * u.z();
+  const double discriminant = q * q - p * (from.squaredNorm() - along * along - tube.radius * tube.radius);
+  if (p < 1e-12 || discriminant < 0) return hit;
+  const double t = (q - std::sqrt(discriminant)) / p, s = along + t * u.z();
+  if (s < 0 || s > length || tube.begin.z() + t >= hit.depth) return hit;
+  return {tube.begin.z() + t, (from + t * Vector3::UnitZ() - s * u) / tube.radius};
+}
+
 }  // namespace
 
 View make_view(const DrawSurface& surface, const Camera& camera, int band_rows, int margin, int band_count) {
@@ -137,25 +167,21 @@ void draw_tubes(const View& view, Band& band) {
   for (std::size_t i = 0; i < view.tubes.size(); ++i) {
     const Tube& tube = view.tubes[i];
     const double r = tube.radius;
-    const Eigen::Vector2d a = tube.begin.head<2>(), run = tube.end.head<2>() - a;
-    const double length2 = run.squaredNorm();
-    const int x0 = first_sample(std::min(a.x(), tube.end.x()) - r, 0);
-    const int x1 = last_sample(std::max(a.x(), tube.end.x()) + r, band.width);
-    const int y1 = last_sample(std::max(a.y(), tube.end.y()) + r, band.row_end);
-    for (int y = first_sample(std::min(a.y(), tube.end.y()) - r, band.row_begin); y <= y1; ++y) {
+    const Vector3 &a = tube.begin, &b = tube.end;
+    const int x0 = first_sample(std::min(a.x(), b.x()) - r, 0);
+    const int x1 = last_sample(std::max(a.x(), b.x()) + r, band.width);
+    const int y1 = last_sample(std::max(a.y(), b.y()) + r, band.row_end);
+    for (int y = first_sample(std::min(a.y(), b.y()) - r, band.row_begin); y <= y1; ++y) {
       for (int x = x0; x <= x1; ++x) {
-        const Eigen::Vector2d q(x + 0.5 - a.x(), y + 0.5 - a.y());
-        const double t = length2 > 0 ? std::clamp(q.dot(run) / length2, 0.0, 1.0) : 0.0;
-        const Eigen::Vector2d off = q - t * run;
-        const double d2 = off.squaredNorm();
-        if (d2 > r * r) continue;
-        const double height = std::sqrt(r * r - d2);
-        const auto depth = static_cast<float>(tube.begin.z() + t * (tube.end.z() - tube.begin.z()) - height);
+        const TubeHit hit = hit_tube(tube, x + 0.5, y + 0.5);
         const std::size_t s = band.index(x, y);
+        const auto depth = static_cast<float>(hit.depth);
         if (depth >= band.tube_depth[s]) continue;
         band.tube_depth[s] = depth;
         band.tube[s] = static_cast<Index>(i);
-        band.tube_normal[s] = (Vector3(off.x(), -off.y(), height) / r).cast<float>();
+        band.tube_normal[s] =
+            Eigen::Vector3f(static_cast<float>(hit.normal.x()), static_cast<float>(-hit.normal.y()),
+                            static_cast<float>(-hit.normal.z()));
       }
     }
   }

@@ -64,8 +64,8 @@ void validate(const RenderOptions& options);
 //
 // Throws UsageError for options or vertex colours that do not fit, MeshError for corners or coordinates that
 // do not.
-// Cost: O(faces + pixels * samples^2 * depth) a view; 70,000 faces in three views of 600 x 600 take 0.2 s on
-// two cores.
+// Cost: O(faces + pixels * samples^2 * depth) a view; 70,000 faces in three views of 600 x 600 take half a
+// second of one core.
 Image render(const RenderScene& scene, const RenderOptions& options = {}, const Execution& execution = {});
 
 // A short straight piece of a skeleton edge, and whether its middle is outside the surface's solid.
