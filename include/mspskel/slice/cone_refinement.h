@@ -80,7 +80,7 @@ inline void refine_slices(const SliceTracer& tracer, const SamplingOptions& samp
           return;
         const VertexFrame frame = make_vertex_frame(surface, v);
         const double half_angle = detail::cone_half_angle(options, slices.error[v]);
-        detail::SliceCandidate best;
+        detail::BestSlice best;
         if (slices.valid[v]) best.try_plane(tracer, v, slices.normal[v]);
         for (const auto& [xi_x, xi_y] : pattern) {
           const Vector3 axis = detail::cone_direction(frame, half_angle, xi_x, xi_y);

@@ -22,7 +22,7 @@ inline void validate(const SamplingOptions& options) {
 namespace detail {
 
 // Best slice so far at one vertex, and the work spent.
-struct SliceCandidate {
+struct BestSlice {
   SliceTracer::Shortest shortest;
   Vector3 normal = Vector3::Zero();
   std::int64_t slices = 0, steps = 0;
@@ -39,7 +39,7 @@ struct SliceCandidate {
 
 // N planes that contain the line p + s·axis (Eq. 3.1), at equal angles from u.
 inline void try_planes_round(const SliceTracer& tracer, Index v, const Vector3& axis, const Vector3& u,
-                             int planes, SliceCandidate& best) {
+                             int planes, BestSlice& best) {
   const Vector3 w = axis.cross(u);
   for (int i = 0; i < planes; ++i) best.try_plane(tracer, v, plane_normal(u, w, kPi * i / planes));
 }
@@ -57,7 +57,7 @@ inline Vector3 contour_centre(const Contour& contour) {
 }
 
 // Stores the candidate as v's slice, with the facts that need the whole contour.
-inline void store_slice(const SliceTracer& tracer, Index v, const SliceCandidate& best, Contour& scratch,
+inline void store_slice(const SliceTracer& tracer, Index v, const BestSlice& best, Contour& scratch,
                         VertexSlices& slices) {
   if (best.shortest.start == kNone) return;
   tracer.trace(best.shortest.start, Plane{best.normal, best.normal.dot(tracer.surface().position[v])}, v,
@@ -87,7 +87,7 @@ inline VertexSlices compute_minimum_slice_perimeters(const SliceTracer& tracer,
       [&](Index v, Contour& scratch) {
         if (surface.vertex_halfedge[v] == kNone) return;
         const VertexFrame frame = make_vertex_frame(surface, v);
-        detail::SliceCandidate best;
+        detail::BestSlice best;
         detail::try_planes_round(tracer, v, frame.normal, frame.u, options.planes, best);
         detail::store_slice(tracer, v, best, scratch, slices);
         work[v] = {best.slices, best.steps};

@@ -36,7 +36,7 @@ class PlaneSearch {
       : tracer_(tracer), options_(options), v_(v), frame_(make_vertex_frame(tracer.surface(), v)),
         max_sine_(std::sin(options.max_tilt * kPi / 180)) {}
 
-  SliceCandidate best;
+  BestSlice best;
   double objective = std::numeric_limits<double>::infinity();
 
   void start_from(const Vector3& normal, double value) {
@@ -120,7 +120,7 @@ inline VertexSlices search_minimum_slice_perimeters(const SliceTracer& tracer, c
   VertexSlices slices;
   slices.resize(count);
   std::vector<double> objective(count, std::numeric_limits<double>::infinity());
-  std::vector<detail::SliceCandidate> found(count);
+  std::vector<detail::BestSlice> found(count);
   std::vector<double> value = objective;
   struct Scratch {
     std::vector<Vector3> planes;

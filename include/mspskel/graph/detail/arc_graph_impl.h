@@ -1,0 +1,119 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace mspskel {
+
+inline void ArcGraph::move_hub(Index hub, const Vector3& position) {
+  hub_position[hub] = position;
+  for (Arc& arc : arcs) {
+    if (!arc.alive) continue;
+    if (arc.hub[0] == hub) arc.points.front() = position;
+    if (arc.hub[1] == hub) arc.points.back() = position;
+  }
+}
+
+inline std::vector<std::vector<Index>> ArcGraph::incidence() const {
+  std::vector<std::vector<Index>> at(hub_position.size());
+  for (Index a = 0; a < arc_count(); ++a)
+    if (arcs[a].alive)
+      for (const Index hub : arcs[a].hub) at[hub].push_back(a);
+  return at;
+}
+
+inline double arc_length(const Arc& arc) {
+  double length = 0;
+  for (std::size_t i = 1; i < arc.points.size(); ++i) length += (arc.points[i] - arc.points[i - 1]).norm();
+  return length;
+}
+
+inline std::vector<Vector3> resampled(const Arc& arc, double step, Index min_edges) {
+  if (arc.hub[0] == arc.hub[1]) min_edges = std::max<Index>(min_edges, 3);
+  const double length = arc_length(arc);
+  const Index count = std::max(min_edges, static_cast<Index>(std::ceil(length / step - 1e-9)));
+  std::vector<Vector3> points{arc.points.front()};
+  double walked = 0;
+  std::size_t i = 1;
+  for (Index k = 1; k < count; ++k) {
+    const double target = length * k / count;
+    while (i + 1 < arc.points.size() && walked + (arc.points[i] - arc.points[i - 1]).norm() < target) {
+      walked += (arc.points[i] - arc.points[i - 1]).norm();
+      ++i;
+    }
+    const Vector3 edge = arc.points[i] - arc.points[i - 1];
+    const double t = edge.norm() > 0 ? std::min(1.0, (target - walked) / edge.norm()) : 0.0;
+    points.push_back(arc.points[i - 1] + t * edge);
+  }
+  points.push_back(arc.points.back());
+  return points;
+}
+
+inline void remove_leaf_arc(ArcGraph& graph, Index arc, Index keep) {
+  Arc& gone = graph.arcs[arc];
+  const Index tip = gone.hub[0] == keep ? gone.hub[1] : gone.hub[0];
+  gone.alive = false;
+  graph.hub_alive[tip] = false;
+  for (std::size_t v = 0; v < graph.arc_of_vertex.size(); ++v)
+    if (graph.arc_of_vertex[v] == arc || graph.hub_of_vertex[v] == tip) {
+      graph.arc_of_vertex[v] = kNone;
+      graph.hub_of_vertex[v] = keep;
+    }
+}
+
+inline void dissolve_through_hubs(ArcGraph& graph) {
+  auto at = graph.incidence();
+  std::vector<Index> arc_now(graph.arcs.size());
+  for (Index a = 0; a < graph.arc_count(); ++a) arc_now[a] = a;
+  std::vector<Index> hub_gone_to(graph.hub_position.size(), kNone);
+  for (Index h = 0; h < graph.hub_count(); ++h) {
+    if (at[h].size() != 2 || at[h][0] == at[h][1]) continue;
+    const Index a = at[h][0], b = at[h][1];
+    Arc &first = graph.arcs[a], &second = graph.arcs[b];
+    if (first.hub[0] == h) {
+      std::reverse(first.points.begin(), first.points.end());
+      std::swap(first.hub[0], first.hub[1]);
+    }
+    if (second.hub[1] == h) {
+      std::reverse(second.points.begin(), second.points.end());
+      std::swap(second.hub[0], second.hub[1]);
+    }
+    first.points.insert(first.points.end(), second.points.begin() + 1, second.points.end());
+    first.hub[1] = second.hub[1];
+    second.alive = false;
+    second.points.clear();
+    graph.hub_alive[h] = false;
+    hub_gone_to[h] = a;
+    arc_now[b] = a;
+    for (Index& other : at[first.hub[1]])
+      if (other == b) other = a;
+  }
+  const auto current = [&](Index a) {
+    while (arc_now[a] != a) a = arc_now[a];
+    return a;
+  };
+  for (std::size_t v = 0; v < graph.arc_of_vertex.size(); ++v) {
+    if (graph.hub_of_vertex[v] != kNone && hub_gone_to[graph.hub_of_vertex[v]] != kNone) {
+      graph.arc_of_vertex[v] = hub_gone_to[graph.hub_of_vertex[v]];
+      graph.hub_of_vertex[v] = kNone;
+    }
+    if (graph.arc_of_vertex[v] != kNone) graph.arc_of_vertex[v] = current(graph.arc_of_vertex[v]);
+  }
+}
+
+inline void contract_arc(ArcGraph& graph, Index arc, const Vector3& position) {
+  const Index keep = graph.arcs[arc].hub[0], gone = graph.arcs[arc].hub[1];
+  graph.arcs[arc].alive = false;
+  graph.hub_alive[gone] = false;
+  for (Arc& other : graph.arcs)
+    for (Index& hub : other.hub)
+      if (hub == gone) hub = keep;
+  for (std::size_t v = 0; v < graph.arc_of_vertex.size(); ++v)
+    if (graph.arc_of_vertex[v] == arc || graph.hub_of_vertex[v] == gone) {
+      graph.arc_of_vertex[v] = kNone;
+      graph.hub_of_vertex[v] = keep;
+    }
+  graph.move_hub(keep, position);
+}
+
+}  // namespace mspskel

@@ -1,0 +1,200 @@
+#pragma once
+
+#include <Eigen/SparseCholesky>
+#include <cmath>
+
+namespace mspskel {
+namespace detail {
+
+// All points of an arc graph under one numbering: hubs first, then the inner points of the arcs.
+struct ArcPoints {
+  enum class Kind : std::uint8_t { kInner, kJoint, kLeaf, kDead };
+
+  std::vector<Vector3> x;
+  std::vector<Kind> kind;
+  std::vector<std::vector<Index>> next;    // neighbours
+  std::vector<std::vector<Index>> chains;  // the points of each arc in order, hubs included; empty for dead arcs
+
+  explicit ArcPoints(const ArcGraph& graph) : x(graph.hub_position), chains(graph.arcs.size()) {
+    kind.assign(x.size(), Kind::kDead);
+    const auto at = graph.incidence();
+    for (Index h = 0; h < graph.hub_count(); ++h)
+      if (graph.hub_alive[h]) kind[h] = at[h].size() == 1 ? Kind::kLeaf : Kind::kJoint;
+    for (Index a = 0; a < graph.arc_count(); ++a) {
+      const Arc& arc = graph.arcs[a];
+      if (!arc.alive) continue;
+      chains[a].push_back(arc.hub[0]);
+      for (std::size_t i = 1; i + 1 < arc.points.size(); ++i) {
+        chains[a].push_back(static_cast<Index>(x.size()));
+        x.push_back(arc.points[i]);
+        kind.push_back(Kind::kInner);
+      }
+      chains[a].push_back(arc.hub[1]);
+    }
+    next.resize(x.size());
+    for (const auto& chain : chains)
+      for (std::size_t i = 1; i < chain.size(); ++i) {
+        next[chain[i]].push_back(chain[i - 1]);
+        next[chain[i - 1]].push_back(chain[i]);
+      }
+  }
+
+  void write_back(ArcGraph& graph) const {
+    for (Index h = 0; h < graph.hub_count(); ++h) graph.hub_position[h] = x[h];
+    for (std::size_t a = 0; a < chains.size(); ++a)
+      for (std::size_t i = 0; i < chains[a].size(); ++i) graph.arcs[a].points[i] = x[chains[a][i]];
+  }
+
+  Index count() const { return static_cast<Index>(x.size()); }
+};
+
+// Unit tangents of inner points and leaf ends from a smoothed copy of the chains; zero elsewhere. Without the
+// smoothing the sections of a zigzag tilt with it, and centring makes it worse.
+inline std::vector<Vector3> smooth_tangents(const ArcPoints& points, int smoothing) {
+  std::vector<Vector3> tangent(points.x.size(), Vector3::Zero());
+  std::vector<Vector3> line, copy;
+  for (const auto& chain : points.chains) {
+    line.clear();
+    for (const Index i : chain) line.push_back(points.x[i]);
+    for (int round = 0; round < smoothing; ++round) {
+      copy = line;
+      for (std::size_t i = 1; i + 1 < line.size(); ++i) line[i] = 0.5 * copy[i] + 0.25 * (copy[i - 1] + copy[i + 1]);
+    }
+    for (std::size_t i = 0; i < chain.size(); ++i) {
+      if (points.kind[chain[i]] == ArcPoints::Kind::kJoint) continue;
+      const Vector3 along = line[std::min(i + 1, line.size() - 1)] - line[i > 0 ? i - 1 : 0];
+      if (along.norm() > 0) tangent[chain[i]] = along.normalized();
+    }
+  }
+  return tangent;
+}
+
+// The move of every point towards its goal, shortened until no edge of the graph meets the surface that did not
+// before. Standing still is always allowed, so this ends.
+inline void move_inside(ArcPoints& points, const BoundingVolumeHierarchy& solid, const std::vector<Vector3>& goal) {
+  std::vector<double> share(points.x.size(), 1.0);
+  const auto moved = [&](Index i) -> Vector3 { return points.x[i] + share[i] * (goal[i] - points.x[i]); };
+  std::vector<std::array<Index, 2>> edges, suspects;
+  for (const auto& chain : points.chains)
+    for (std::size_t i = 1; i < chain.size(); ++i) edges.push_back({chain[i - 1], chain[i]});
+  std::vector<bool> crossed(edges.size());
+  for (int attempt = 0; attempt < 40; ++attempt) {
+    bool changed = false;
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      const auto [a, b] = edges[e];
+      if (share[a] == 0 && share[b] == 0) continue;
+      if (!solid.segment_crosses(moved(a), moved(b))) continue;
+      for (const Index i : {a, b}) share[i] = attempt < 4 ? 0.5 * share[i] : 0.0;
+      changed = true;
+    }
+    if (!changed) break;
+  }
+  for (Index i = 0; i < points.count(); ++i) points.x[i] = moved(i);
+}
+
+struct Pull {
+  Vector3 goal = Vector3::Zero();
+  double weight = 0.0;
+  double stiffness = 1.0;
+};
+
+inline Pull section_pull(const BoundingVolumeHierarchy& solid, const Vector3& x, const Vector3& tangent,
+                         const CenteringOptions& options) {
+  const VisibleSection section = visible_section(solid, x, tangent, options.rays);
+  if (!section.closed || section.radius <= 0) return {x, 1e-3, 1.0};
+  const double move = (section.centre - x).norm() / (0.7 * section.radius);
+  const double thickness = section.clearance / options.step;
+  return {section.centre, section.roundness * section.roundness / (1 + std::pow(move, 4)), thickness * thickness};
+}
+
+// Minimises Σ w|x − goal|² + Σ μ|x − mean of neighbours|² with μ = smoothness · stiffness.
+inline std::vector<Vector3> solve_positions(const ArcPoints& points, const std::vector<Pull>& pulls, double smoothness) {
+  using Triplet = Eigen::Triplet<double>;
+  const Index n = points.count();
+  std::vector<Triplet> entries;
+  Eigen::MatrixX3d right(n, 3);
+  for (Index i = 0; i < n; ++i) {
+    const double w = std::max(pulls[i].weight, 1e-9);
+    entries.emplace_back(i, i, w);
+    right.row(i) = w * pulls[i].goal.transpose();
+    const auto& next = points.next[i];
+    if (next.size() < 2) continue;
+    const double mu = smoothness * pulls[i].stiffness * (points.kind[i] == ArcPoints::Kind::kInner ? 1.0 : 0.3);
+    // Row r = e_i − Σ e_j / k; its outer product enters the matrix.
+    const double k = static_cast<double>(next.size());
+    entries.emplace_back(i, i, mu);
+    for (const Index a : next) {
+      entries.emplace_back(i, a, -mu / k);
+      entries.emplace_back(a, i, -mu / k);
+      for (const Index b : next) entries.emplace_back(a, b, mu / (k * k));
+    }
+  }
+  Eigen::SparseMatrix<double> matrix(n, n);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(matrix);
+  if (solver.info() != Eigen::Success) return points.x;
+  const Eigen::MatrixX3d solution = solver.solve(right);
+  std::vector<Vector3> x(points.x.size());
+  for (Index i = 0; i < n; ++i) x[i] = solution.row(i).transpose();
+  return x;
+}
+
+}  // namespace detail
+
+inline VisibleSection visible_section(const BoundingVolumeHierarchy& solid, const Vector3& x, const Vector3& tangent,
+                                      int rays) {
+  // The rays start at the nearest surface point's direction, so they turn with the model.
+  Vector3 u = solid.closest(x).point - x;
+  const double clearance = u.norm();
+  u -= u.dot(tangent) * tangent;
+  if (u.norm() < 1e-12) u = tangent.unitOrthogonal();
+  u.normalize();
+  const Vector3 w = tangent.cross(u);
+  std::array<double, 256> r;
+  solid.ray_fan(x, u, w, rays, r.data());
+  VisibleSection section;
+  section.clearance = clearance;
+  double area = 0, perimeter = 0, sum_u = 0, sum_w = 0;
+  for (int i = 0; i < rays; ++i) {
+    if (!std::isfinite(r[i])) return section;
+    const double a = 2 * kPi * i / rays, turn = 2 * kPi / rays, s = r[(i + 1) % rays];
+    sum_u += r[i] * std::cos(a);
+    sum_w += r[i] * std::sin(a);
+    area += 0.5 * r[i] * s * std::sin(turn);
+    perimeter += std::sqrt(std::max(0.0, r[i] * r[i] + s * s - 2 * r[i] * s * std::cos(turn)));
+  }
+  section.closed = true;
+  section.centre = x + 2.0 / rays * (sum_u * u + sum_w * w);
+  section.radius = std::sqrt(area / kPi);
+  section.roundness = perimeter > 0 ? 4 * kPi * area / (perimeter * perimeter) : 0.0;
+  return section;
+}
+
+inline void center_arcs(ArcGraph& graph, const BoundingVolumeHierarchy& solid, const CenteringOptions& options,
+                        const Execution& execution) {
+  validate(options);
+  for (int round = 0; round < options.rounds; ++round) {
+    for (Arc& arc : graph.arcs)
+      if (arc.alive) arc.points = resampled(arc, options.step);
+    detail::ArcPoints points(graph);
+    const auto tangent = detail::smooth_tangents(points, options.tangent_smoothing);
+    std::vector<detail::Pull> pulls(points.x.size());
+    parallel_for(
+        points.count(), "centring", execution, [] { return 0; },
+        [&](Index i, int) {
+          using Kind = detail::ArcPoints::Kind;
+          pulls[i] = {points.x[i], 1e-3, 1.0};
+          if (points.kind[i] == Kind::kDead || points.kind[i] == Kind::kJoint) return;
+          if (!tangent[i].isZero()) pulls[i] = detail::section_pull(solid, points.x[i], tangent[i], options);
+          if (points.kind[i] == Kind::kLeaf) pulls[i].weight = 0.5;
+        });
+    const auto solution = detail::solve_positions(points, pulls, options.smoothness);
+    std::vector<Vector3> goal(points.x);
+    for (Index i = 0; i < points.count(); ++i)
+      if (solution[i].allFinite()) goal[i] += options.damping * (solution[i] - points.x[i]);
+    detail::move_inside(points, solid, goal);
+    points.write_back(graph);
+  }
+}
+
+}  // namespace mspskel
