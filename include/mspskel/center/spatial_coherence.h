@@ -1,4 +1,5 @@
-// Spatial coherence (thesis 6.2, Fig. 6.1): skeletal points of low confidence move to their neighbours of high confidence.
+// Spatial coherence (thesis 6.2, Fig. 6.1): skeletal points of low confidence move to their neighbours of
+// high confidence.
 #pragma once
 
 #include <Eigen/SparseCholesky>
@@ -10,7 +11,8 @@ namespace mspskel {
 
 struct CoherenceOptions {
   bool enabled = true;
-  double strength = 2.0;  // α: weight of the neighbours against a point's own confidence of at most 1; 0 to 1000
+  double strength =
+      2.0;  // α: weight of the neighbours against a point's own confidence of at most 1; 0 to 1000
 };
 
 inline void validate(const CoherenceOptions& o) {
@@ -19,8 +21,8 @@ inline void validate(const CoherenceOptions& o) {
 
 namespace detail {
 
-// Confidence of a skeletal point: (1 − E_s)², less where the neighbours' points scatter over more than the slice's
-// radius MSP / 2π.
+// Confidence of a skeletal point: (1 − E_s)², less where the neighbours' points scatter over more than the
+// slice's radius MSP / 2π.
 inline double point_confidence(const SurfaceSnapshot& surface, const SkeletonMesh& mesh, Index v) {
   if (!mesh.valid[v]) return 0.0;
   double spread = 0, count = 0;
@@ -38,10 +40,12 @@ inline double point_confidence(const SurfaceSnapshot& surface, const SkeletonMes
 
 }  // namespace detail
 
-// Replaces the skeletal points s by the solution x of (C + αL) x = C s, with C the diagonal of confidences and L the
-// graph Laplacian of the mesh with rows divided by the valence: one sparse solve. More of it, or repeated, turns medial
-// sheets into membranes and pulls arcs off centre. Cost: a sparse Cholesky factorisation, about O(vertices^1.5).
-inline void apply_spatial_coherence(const SurfaceSnapshot& surface, const CoherenceOptions& options, SkeletonMesh& mesh) {
+// Replaces the skeletal points s by the solution x of (C + αL) x = C s, with C the diagonal of confidences
+// and L the graph Laplacian of the mesh with rows divided by the valence: one sparse solve. More of it, or
+// repeated, turns medial sheets into membranes and pulls arcs off centre. Cost: a sparse Cholesky
+// factorisation, about O(vertices^1.5).
+inline void apply_spatial_coherence(const SurfaceSnapshot& surface, const CoherenceOptions& options,
+                                    SkeletonMesh& mesh) {
   validate(options);
   if (!options.enabled || options.strength == 0) return;
   const Index n = surface.vertex_count();
@@ -59,14 +63,16 @@ inline void apply_spatial_coherence(const SurfaceSnapshot& surface, const Cohere
   }
   Eigen::MatrixX3d right(n, 3);
   for (Index v = 0; v < n; ++v) {
-    const double c = surface.vertex_halfedge[v] == kNone ? 1.0 : 1e-6 + detail::point_confidence(surface, mesh, v);
+    const double c =
+        surface.vertex_halfedge[v] == kNone ? 1.0 : 1e-6 + detail::point_confidence(surface, mesh, v);
     entries.emplace_back(v, v, diagonal[v] + c);
     right.row(v) = c * mesh.position[v].transpose();
   }
   Eigen::SparseMatrix<double> matrix(n, n);
   matrix.setFromTriplets(entries.begin(), entries.end());
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(matrix);
-  if (solver.info() != Eigen::Success) return;  // the matrix is positive definite, so only rounding could do this
+  if (solver.info() != Eigen::Success)
+    return;  // the matrix is positive definite, so only rounding could do this
   const Eigen::MatrixX3d solution = solver.solve(right);
   for (Index v = 0; v < n; ++v) mesh.position[v] = solution.row(v).transpose();
 }

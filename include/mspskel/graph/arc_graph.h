@@ -15,9 +15,9 @@ struct Arc {
   bool alive = true;
 };
 
-// A multigraph: arcs may be parallel, or loops at one hub. Positions are in the normalised frame of a snapshot.
-// Every surface vertex belongs to one arc or one hub; a stage that removes either passes its vertices on, so the map
-// stays a partition.
+// A multigraph: arcs may be parallel, or loops at one hub. Positions are in the normalised frame of a
+// snapshot. Every surface vertex belongs to one arc or one hub; a stage that removes either passes its
+// vertices on, so the map stays a partition.
 struct ArcGraph {
   std::vector<Vector3> hub_position;
   std::vector<bool> hub_alive;
@@ -41,14 +41,15 @@ struct ArcGraph {
 
 double arc_length(const Arc& arc);
 
-// Points at equal steps of at most `step`; ends stay. A loop gets at least three edges, any other arc at least
-// `min_edges`.
+// Points at equal steps of at most `step`; ends stay. A loop gets at least three edges, any other arc at
+// least `min_edges`.
 std::vector<Vector3> resampled(const Arc& arc, double step, Index min_edges = 1);
 
 // Removes a leaf arc: the hub `keep` that it leaves takes its vertices, and those of its tip.
 void remove_leaf_arc(ArcGraph& graph, Index arc, Index keep);
 
-// Joins the two arcs that meet at every hub with exactly two arc ends, and gives the hub's vertices to the joint arc.
+// Joins the two arcs that meet at every hub with exactly two arc ends, and gives the hub's vertices to the
+// joint arc.
 void dissolve_through_hubs(ArcGraph& graph);
 
 // Contracts an arc that is no loop: its vertices and those of hub[1] go to hub[0], which moves to `position`.

@@ -1,5 +1,5 @@
-// Re-centring: arcs are resampled evenly and drawn to the middle of the solid's cross-sections, all at once, by one
-// sparse solve a round.
+// Re-centring: arcs are resampled evenly and drawn to the middle of the solid's cross-sections, all at once,
+// by one sparse solve a round.
 #pragma once
 
 #include <string>
@@ -16,14 +16,16 @@ struct CenteringOptions {
   int rounds = 10;            // rounds of sections and solve, 0 to 100
   int rays = 24;              // rays a cross-section, 4 to 256
   int tangent_smoothing = 3;  // rounds of neighbour averages before tangents are taken, 0 to 100
-  // Weight of |x − mean of neighbours|² against |x − centre|² where the solid is as thick as the step is long; it grows
-  // with the square of the thickness, so thin limbs are followed and thick parts get straight arcs. 0 to 1e6.
+  // Weight of |x − mean of neighbours|² against |x − centre|² where the solid is as thick as the step is
+  // long; it grows with the square of the thickness, so thin limbs are followed and thick parts get straight
+  // arcs. 0 to 1e6.
   double smoothness = 10.0;
-  double damping = 0.5;       // share of the way to the solution that a round goes; above 0, at most 1
+  double damping = 0.5;  // share of the way to the solution that a round goes; above 0, at most 1
 };
 
 inline void validate(const CenteringOptions& o) {
-  if (!(o.step >= 0.0005 && o.step <= 0.5)) throw UsageError("arc step must be from 0.0005 to 0.5 of the extent");
+  if (!(o.step >= 0.0005 && o.step <= 0.5))
+    throw UsageError("arc step must be from 0.0005 to 0.5 of the extent");
   if (o.rounds < 0 || o.rounds > 100) throw UsageError("centring rounds must be from 0 to 100");
   if (o.rays < 4 || o.rays > 256) throw UsageError("centring rays must be from 4 to 256");
   if (o.tangent_smoothing < 0 || o.tangent_smoothing > 100)
@@ -41,14 +43,17 @@ struct VisibleSection {
   bool closed = false;               // every ray met the surface
 };
 
-// Rays leave x evenly in the plane across the unit vector `tangent`. With lengths r_i and directions d_i the centre is
-// x + 2 mean(r_i d_i): a Newton step towards Σ r_i d_i = 0, exact for a disc. Cost: `rays` ray queries.
-VisibleSection visible_section(const BoundingVolumeHierarchy& solid, const Vector3& x, const Vector3& tangent, int rays);
+// Rays leave x evenly in the plane across the unit vector `tangent`. With lengths r_i and directions d_i the
+// centre is x + 2 mean(r_i d_i): a Newton step towards Σ r_i d_i = 0, exact for a disc. Cost: `rays` ray
+// queries.
+VisibleSection visible_section(const BoundingVolumeHierarchy& solid, const Vector3& x, const Vector3& tangent,
+                               int rays);
 
-// Resamples every arc at options.step and centres it: minimises Σ w|x − c|² + μ Σ|x − mean of neighbours|² over all
-// points, with c the section's centre, w = roundness² / (1 + (|c − x| / 0.7 R)⁴) and μ = smoothness · (distance to the
-// surface / step)², leaf ends held, joints nearly free. A point moves only as far as its edges stay off the surface, so what is inside stays inside.
-// Cost: O(points · rays · log faces) a round. Throws UsageError, Cancelled.
+// Resamples every arc at options.step and centres it: minimises Σ w|x − c|² + μ Σ|x − mean of neighbours|²
+// over all points, with c the section's centre, w = roundness² / (1 + (|c − x| / 0.7 R)⁴) and μ = smoothness
+// · (distance to the surface / step)², leaf ends held, joints nearly free. A point moves only as far as its
+// edges stay off the surface, so what is inside stays inside. Cost: O(points · rays · log faces) a round.
+// Throws UsageError, Cancelled.
 void center_arcs(ArcGraph& graph, const BoundingVolumeHierarchy& solid, const CenteringOptions& options,
                  const Execution& execution = {});
 

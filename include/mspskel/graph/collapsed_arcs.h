@@ -9,12 +9,14 @@
 
 namespace mspskel {
 
-// Hubs are the nodes that do not have exactly two edge ends, and one node of every closed chain. Cost: O(size).
+// Hubs are the nodes that do not have exactly two edge ends, and one node of every closed chain. Cost:
+// O(size).
 ArcGraph make_arc_graph(const CollapsedSkeleton& collapsed);
 
-// The finished skeleton: hubs and arc points become nodes with radii, loops and parallel arcs get nodes of their own,
-// each vertex goes to the nearest node of its arc (of the arcs at its hub), in connected patches. `perimeter` and
-// `error` are per vertex and averaged over what maps to a node. Cost: O(vertices · points of an arc).
+// The finished skeleton: hubs and arc points become nodes with radii, loops and parallel arcs get nodes of
+// their own, each vertex goes to the nearest node of its arc (of the arcs at its hub), in connected patches.
+// `perimeter` and `error` are per vertex and averaged over what maps to a node. Cost: O(vertices · points of
+// an arc).
 CurveSkeleton make_curve_skeleton(const ArcGraph& graph, const SurfaceSnapshot& surface,
                                   const BoundingVolumeHierarchy& solid, const std::vector<double>& perimeter,
                                   const std::vector<double>& error, const Execution& execution = {});

@@ -6,10 +6,10 @@
 
 namespace mspskel {
 
-// Contracts arcs between two joints, shortest first, while their distance is below `overlap` times the smaller ball's
-// radius; the joint with the larger ball stays. Arcs of the other one enter the ball on a straight line, which the ball
-// keeps inside the solid. A contracted arc is never a loop, so the homotopy type stays. Returns the number of joints
-// that went. Cost: O(joints · arcs).
+// Contracts arcs between two joints, shortest first, while their distance is below `overlap` times the
+// smaller ball's radius; the joint with the larger ball stays. Arcs of the other one enter the ball on a
+// straight line, which the ball keeps inside the solid. A contracted arc is never a loop, so the homotopy
+// type stays. Returns the number of joints that went. Cost: O(joints · arcs).
 Index merge_joints(ArcGraph& graph, const BoundingVolumeHierarchy& solid, double overlap = 1.0);
 
 }  // namespace mspskel

@@ -8,8 +8,8 @@
 namespace mspskel {
 
 struct PruningOptions {
-  // A leaf arc stays if its part of the surface protrudes from the balls of the rest of the skeleton by more than this
-  // share of its own width where it leaves; 0 to 100. Larger keeps fewer features.
+  // A leaf arc stays if its part of the surface protrudes from the balls of the rest of the skeleton by more
+  // than this share of its own width where it leaves; 0 to 100. Larger keeps fewer features.
   double protrusion = 0.5;
   // ... and by more than this share of the model's extent; 0 to 1. Below it everything counts as noise.
   double smallest = 0.01;
@@ -17,7 +17,8 @@ struct PruningOptions {
 
 inline void validate(const PruningOptions& o) {
   if (!(o.protrusion >= 0 && o.protrusion <= 100)) throw UsageError("protrusion must be from 0 to 100");
-  if (!(o.smallest >= 0 && o.smallest <= 1)) throw UsageError("smallest feature must be from 0 to 1 of the extent");
+  if (!(o.smallest >= 0 && o.smallest <= 1))
+    throw UsageError("smallest feature must be from 0 to 1 of the extent");
 }
 
 struct LeafSignificance {
@@ -25,9 +26,9 @@ struct LeafSignificance {
   double width = 0.0;  // radius of the solid where the arc leaves its joint
 };
 
-// Prunes until every leaf arc is significant; through hubs that are left dissolve. `perimeter` is the MSP of every
-// vertex. Returns the number of arcs removed. A component keeps at least one arc or hub, loops always stay.
-// Cost: O(leaf arcs · vertices on leaf arcs · points near them).
+// Prunes until every leaf arc is significant; through hubs that are left dissolve. `perimeter` is the MSP of
+// every vertex. Returns the number of arcs removed. A component keeps at least one arc or hub, loops always
+// stay. Cost: O(leaf arcs · vertices on leaf arcs · points near them).
 Index prune_branches(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
                      const std::vector<double>& perimeter, const PruningOptions& options);
 

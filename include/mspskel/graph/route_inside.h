@@ -1,4 +1,5 @@
-// Arcs that leave the solid are led back through it, along the middle of the chords that start at the surface.
+// Arcs that leave the solid are led back through it, along the middle of the chords that start at the
+// surface.
 #pragma once
 
 #include "mspskel/graph/arc_graph.h"
@@ -8,16 +9,18 @@
 namespace mspskel {
 
 struct RoutingResult {
-  Index hubs_moved = 0;     // hubs that lay outside
-  Index routed = 0;         // stretches of arcs replaced by a path inside
-  Index unroutable = 0;     // stretches for which no path was found: they stay as they were
+  Index hubs_moved = 0;  // hubs that lay outside
+  Index routed = 0;      // stretches of arcs replaced by a path inside
+  Index unroutable = 0;  // stretches for which no path was found: they stay as they were
 };
 
-// Moves hubs that lie outside to the nearest chord middle, and replaces every stretch of an arc that leaves the solid by
-// the path of least length / clearance along edges of the mesh whose ends were moved to the middle of their inward
-// chord. Such a path stays close to the medial surface and follows thin walls. Does nothing where all is inside.
-// Cost: O(points · log faces), and a shortest path over the mesh for each stretch.
-RoutingResult route_inside(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid);
+// Moves hubs that lie outside to the nearest chord middle, and replaces every stretch of an arc that leaves
+// the solid by the path of least length / clearance along edges of the mesh whose ends were moved to the
+// middle of their inward chord. Such a path stays close to the medial surface and follows thin walls. Does
+// nothing where all is inside. Cost: O(points · log faces), and a shortest path over the mesh for each
+// stretch.
+RoutingResult route_inside(ArcGraph& graph, const SurfaceSnapshot& surface,
+                           const BoundingVolumeHierarchy& solid);
 
 }  // namespace mspskel
 

@@ -1,5 +1,6 @@
-// Search for the minimum slice instead of sampling: coarse angles, then the planes that won at neighbouring vertices,
-// then a compass search over angle and tilt. A fraction of the work of cone refinement for slices that are as short.
+// Search for the minimum slice instead of sampling: coarse angles, then the planes that won at neighbouring
+// vertices, then a compass search over angle and tilt. A fraction of the work of cone refinement for slices
+// that are as short.
 #pragma once
 
 #include "mspskel/slice/minimum_slice_perimeter.h"
@@ -7,23 +8,25 @@
 namespace mspskel {
 
 enum class SliceObjective {
-  kPerimeter,          // the raw perimeter: comparable with sampling, but a tilt shortens slices of round parts
-  kPerimeterOverTilt,  // perimeter / cos(tilt): all slices through a point of a sphere tie, so tilt is not rewarded
+  kPerimeter,  // the raw perimeter: comparable with sampling, but a tilt shortens slices of round parts
+  kPerimeterOverTilt,  // perimeter / cos(tilt): all slices through a point of a sphere tie, so tilt is not
+                       // rewarded
 };
 
 struct SearchOptions {
   SliceObjective objective = SliceObjective::kPerimeterOverTilt;
-  int angles = 8;           // planes through the normal tried first, 1 to 1000
-  int rounds = 2;           // times that a vertex looks at its neighbours' planes, 0 to 100
-  double max_tilt = 55.0;   // largest angle between the plane and the vertex normal, degrees; 0 to below 90
-  double first_step = 11.0; // compass step of the first round, degrees; above 0
-  double last_step = 1.5;   // the compass stops below this step, degrees; above 0
+  int angles = 6;            // planes through the normal tried first, 1 to 1000
+  int rounds = 4;            // times that a vertex looks at its neighbours' planes, 0 to 100
+  double max_tilt = 55.0;    // largest angle between the plane and the vertex normal, degrees; 0 to below 90
+  double first_step = 15.0;  // compass step of the first round, degrees; above 0
+  double last_step = 4.0;    // the compass stops below this step, degrees; above 0
 };
 
 inline void validate(const SearchOptions& o) {
   if (o.angles < 1 || o.angles > 1000) throw UsageError("search angles must be from 1 to 1000");
   if (o.rounds < 0 || o.rounds > 100) throw UsageError("search rounds must be from 0 to 100");
-  if (!(o.max_tilt >= 0 && o.max_tilt < 90)) throw UsageError("search tilt must be from 0 to below 90 degrees");
+  if (!(o.max_tilt >= 0 && o.max_tilt < 90))
+    throw UsageError("search tilt must be from 0 to below 90 degrees");
   if (!(o.first_step > 0 && o.last_step > 0)) throw UsageError("search steps must be above 0 degrees");
 }
 
@@ -33,7 +36,10 @@ namespace detail {
 class PlaneSearch {
  public:
   PlaneSearch(const SliceTracer& tracer, const SearchOptions& options, Index v)
-      : tracer_(tracer), options_(options), v_(v), frame_(make_vertex_frame(tracer.surface(), v)),
+      : tracer_(tracer),
+        options_(options),
+        v_(v),
+        frame_(make_vertex_frame(tracer.surface(), v)),
         max_sine_(std::sin(options.max_tilt * kPi / 180)) {}
 
   BestSlice best;
@@ -59,7 +65,8 @@ class PlaneSearch {
   }
 
   void coarse_angles() {
-    for (int i = 0; i < options_.angles; ++i) try_plane(plane_normal(frame_.u, frame_.v, kPi * i / options_.angles));
+    for (int i = 0; i < options_.angles; ++i)
+      try_plane(plane_normal(frame_.u, frame_.v, kPi * i / options_.angles));
   }
 
   // Turns about the vertex normal and tilts towards it by ± step; halves the step when nothing helps.
@@ -92,8 +99,8 @@ class PlaneSearch {
 inline constexpr double kSamePlane = 0.9994;  // cosine of 2 degrees: closer planes are left to the compass
 
 // The normals that won round v, without repetitions.
-inline void neighbour_planes(const SurfaceSnapshot& surface, const VertexSlices& slices, const std::vector<double>& objective,
-                             Index v, std::vector<Vector3>& planes) {
+inline void neighbour_planes(const SurfaceSnapshot& surface, const VertexSlices& slices,
+                             const std::vector<double>& objective, Index v, std::vector<Vector3>& planes) {
   planes.clear();
   const Index first = surface.vertex_halfedge[v];
   Index h = first;
@@ -103,15 +110,17 @@ inline void neighbour_planes(const SurfaceSnapshot& surface, const VertexSlices&
     if (!slices.valid[w] || objective[w] > 1.2 * objective[v]) continue;
     const Vector3& m = slices.normal[w];
     if (slices.valid[v] && std::abs(m.dot(slices.normal[v])) > kSamePlane) continue;
-    if (std::none_of(planes.begin(), planes.end(), [&](const Vector3& o) { return std::abs(m.dot(o)) > kSamePlane; }))
+    if (std::none_of(planes.begin(), planes.end(),
+                     [&](const Vector3& o) { return std::abs(m.dot(o)) > kSamePlane; }))
       planes.push_back(m);
   } while (h != first);
 }
 
 }  // namespace detail
 
-// MSP slices by search. Each round reads only the round before, so the result depends neither on threads nor on the
-// order of vertices. Cost: about 30 slices a vertex. Errors are left at 1. Throws UsageError, Cancelled.
+// MSP slices by search. Each round reads only the round before, so the result depends neither on threads nor
+// on the order of vertices. Cost: about 30 slices a vertex. Errors are left at 1. Throws UsageError,
+// Cancelled.
 inline VertexSlices search_minimum_slice_perimeters(const SliceTracer& tracer, const SearchOptions& options,
                                                     const Execution& execution = {}) {
   validate(options);
@@ -160,7 +169,8 @@ inline VertexSlices search_minimum_slice_perimeters(const SliceTracer& tracer, c
   parallel_for(
       count, "slice search", execution, [] { return Scratch(); },
       [&](Index v, Scratch& scratch) {
-        if (!slices.valid[v] || !tracer.shortest_contour(v, slices.normal[v], scratch.contour, work[v][1])) return;
+        if (!slices.valid[v] || !tracer.shortest_contour(v, slices.normal[v], scratch.contour, work[v][1]))
+          return;
         slices.centre[v] = detail::contour_centre(scratch.contour);
         slices.contour_points[v] = static_cast<Index>(scratch.contour.point.size());
       });

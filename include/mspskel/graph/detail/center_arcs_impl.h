@@ -12,8 +12,9 @@ struct ArcPoints {
 
   std::vector<Vector3> x;
   std::vector<Kind> kind;
-  std::vector<std::vector<Index>> next;    // neighbours
-  std::vector<std::vector<Index>> chains;  // the points of each arc in order, hubs included; empty for dead arcs
+  std::vector<std::vector<Index>> next;  // neighbours
+  std::vector<std::vector<Index>>
+      chains;  // the points of each arc in order, hubs included; empty for dead arcs
 
   explicit ArcPoints(const ArcGraph& graph) : x(graph.hub_position), chains(graph.arcs.size()) {
     kind.assign(x.size(), Kind::kDead);
@@ -58,7 +59,8 @@ inline std::vector<Vector3> smooth_tangents(const ArcPoints& points, int smoothi
     for (const Index i : chain) line.push_back(points.x[i]);
     for (int round = 0; round < smoothing; ++round) {
       copy = line;
-      for (std::size_t i = 1; i + 1 < line.size(); ++i) line[i] = 0.5 * copy[i] + 0.25 * (copy[i - 1] + copy[i + 1]);
+      for (std::size_t i = 1; i + 1 < line.size(); ++i)
+        line[i] = 0.5 * copy[i] + 0.25 * (copy[i - 1] + copy[i + 1]);
     }
     for (std::size_t i = 0; i < chain.size(); ++i) {
       if (points.kind[chain[i]] == ArcPoints::Kind::kJoint) continue;
@@ -69,9 +71,10 @@ inline std::vector<Vector3> smooth_tangents(const ArcPoints& points, int smoothi
   return tangent;
 }
 
-// The move of every point towards its goal, shortened until no edge of the graph meets the surface that did not
-// before. Standing still is always allowed, so this ends.
-inline void move_inside(ArcPoints& points, const BoundingVolumeHierarchy& solid, const std::vector<Vector3>& goal) {
+// The move of every point towards its goal, shortened until no edge of the graph meets the surface that did
+// not before. Standing still is always allowed, so this ends.
+inline void move_inside(ArcPoints& points, const BoundingVolumeHierarchy& solid,
+                        const std::vector<Vector3>& goal) {
   std::vector<double> share(points.x.size(), 1.0);
   const auto moved = [&](Index i) -> Vector3 { return points.x[i] + share[i] * (goal[i] - points.x[i]); };
   std::vector<std::array<Index, 2>> edges, suspects;
@@ -104,11 +107,13 @@ inline Pull section_pull(const BoundingVolumeHierarchy& solid, const Vector3& x,
   if (!section.closed || section.radius <= 0) return {x, 1e-3, 1.0};
   const double move = (section.centre - x).norm() / (0.7 * section.radius);
   const double thickness = section.clearance / options.step;
-  return {section.centre, section.roundness * section.roundness / (1 + std::pow(move, 4)), thickness * thickness};
+  return {section.centre, section.roundness * section.roundness / (1 + std::pow(move, 4)),
+          thickness * thickness};
 }
 
 // Minimises Σ w|x − goal|² + Σ μ|x − mean of neighbours|² with μ = smoothness · stiffness.
-inline std::vector<Vector3> solve_positions(const ArcPoints& points, const std::vector<Pull>& pulls, double smoothness) {
+inline std::vector<Vector3> solve_positions(const ArcPoints& points, const std::vector<Pull>& pulls,
+                                            double smoothness) {
   using Triplet = Eigen::Triplet<double>;
   const Index n = points.count();
   std::vector<Triplet> entries;
@@ -119,7 +124,8 @@ inline std::vector<Vector3> solve_positions(const ArcPoints& points, const std::
     right.row(i) = w * pulls[i].goal.transpose();
     const auto& next = points.next[i];
     if (next.size() < 2) continue;
-    const double mu = smoothness * pulls[i].stiffness * (points.kind[i] == ArcPoints::Kind::kInner ? 1.0 : 0.3);
+    const double mu =
+        smoothness * pulls[i].stiffness * (points.kind[i] == ArcPoints::Kind::kInner ? 1.0 : 0.3);
     // Row r = e_i − Σ e_j / k; its outer product enters the matrix.
     const double k = static_cast<double>(next.size());
     entries.emplace_back(i, i, mu);
@@ -141,8 +147,8 @@ inline std::vector<Vector3> solve_positions(const ArcPoints& points, const std::
 
 }  // namespace detail
 
-inline VisibleSection visible_section(const BoundingVolumeHierarchy& solid, const Vector3& x, const Vector3& tangent,
-                                      int rays) {
+inline VisibleSection visible_section(const BoundingVolumeHierarchy& solid, const Vector3& x,
+                                      const Vector3& tangent, int rays) {
   // The rays start at the nearest surface point's direction, so they turn with the model.
   Vector3 u = solid.closest(x).point - x;
   const double clearance = u.norm();
@@ -170,8 +176,8 @@ inline VisibleSection visible_section(const BoundingVolumeHierarchy& solid, cons
   return section;
 }
 
-inline void center_arcs(ArcGraph& graph, const BoundingVolumeHierarchy& solid, const CenteringOptions& options,
-                        const Execution& execution) {
+inline void center_arcs(ArcGraph& graph, const BoundingVolumeHierarchy& solid,
+                        const CenteringOptions& options, const Execution& execution) {
   validate(options);
   for (int round = 0; round < options.rounds; ++round) {
     for (Arc& arc : graph.arcs)

@@ -75,9 +75,10 @@ class ArcTracer {
   ArcGraph graph_;
 };
 
-// Two arcs with the same ends and no inner point between them would be one edge: all of them get inner points.
-inline std::vector<Vector3> points_for_output(const Arc& arc, const std::vector<std::vector<Index>>& at, Index self,
-                                              const ArcGraph& graph) {
+// Two arcs with the same ends and no inner point between them would be one edge: all of them get inner
+// points.
+inline std::vector<Vector3> points_for_output(const Arc& arc, const std::vector<std::vector<Index>>& at,
+                                              Index self, const ArcGraph& graph) {
   std::size_t least = arc.hub[0] == arc.hub[1] ? 4 : 2;
   for (const Index other : at[arc.hub[0]])
     if (other != self && graph.arcs[other].hub[0] + graph.arcs[other].hub[1] == arc.hub[0] + arc.hub[1])
@@ -134,10 +135,13 @@ inline void average_over_map(const SurfaceSnapshot& surface, const std::vector<d
 
 }  // namespace detail
 
-inline ArcGraph make_arc_graph(const CollapsedSkeleton& collapsed) { return detail::ArcTracer(collapsed).trace(); }
+inline ArcGraph make_arc_graph(const CollapsedSkeleton& collapsed) {
+  return detail::ArcTracer(collapsed).trace();
+}
 
 inline CurveSkeleton make_curve_skeleton(const ArcGraph& graph, const SurfaceSnapshot& surface,
-                                         const BoundingVolumeHierarchy& solid, const std::vector<double>& perimeter,
+                                         const BoundingVolumeHierarchy& solid,
+                                         const std::vector<double>& perimeter,
                                          const std::vector<double>& error, const Execution& execution) {
   CurveSkeleton skeleton;
   const auto at = graph.incidence();
@@ -158,8 +162,8 @@ inline CurveSkeleton make_curve_skeleton(const ArcGraph& graph, const SurfaceSna
     for (std::size_t i = 1; i + 1 < points.size(); ++i) chains[a].nodes.push_back(add_node(points[i]));
     chains[a].nodes.push_back(hub_node[arc.hub[1]]);
     for (std::size_t i = 1; i < chains[a].nodes.size(); ++i)
-      skeleton.edges.push_back(
-          {std::min(chains[a].nodes[i - 1], chains[a].nodes[i]), std::max(chains[a].nodes[i - 1], chains[a].nodes[i])});
+      skeleton.edges.push_back({std::min(chains[a].nodes[i - 1], chains[a].nodes[i]),
+                                std::max(chains[a].nodes[i - 1], chains[a].nodes[i])});
   }
   std::sort(skeleton.edges.begin(), skeleton.edges.end());
   set_radii(surface, solid, skeleton, execution);
@@ -167,7 +171,8 @@ inline CurveSkeleton make_curve_skeleton(const ArcGraph& graph, const SurfaceSna
   skeleton.node_of_vertex.assign(surface.position.size(), kNone);
   detail::assign_hub_vertices(graph, surface, hub_node, at, chains, skeleton);
   std::vector<Branch> branch_list;
-  std::vector<Index> branch_of_arc(graph.arcs.size(), kNone), branch_of_vertex(surface.position.size(), kNone);
+  std::vector<Index> branch_of_arc(graph.arcs.size(), kNone),
+      branch_of_vertex(surface.position.size(), kNone);
   for (std::size_t a = 0; a < chains.size(); ++a)
     if (!chains[a].nodes.empty()) {
       branch_of_arc[a] = static_cast<Index>(branch_list.size());

@@ -14,7 +14,8 @@ inline Vector3 point_before_end(const std::vector<Vector3>& points, double lengt
 }
 
 // Grows the polyline at its back.
-inline void grow(std::vector<Vector3>& points, const BoundingVolumeHierarchy& solid, const ExtensionOptions& options) {
+inline void grow(std::vector<Vector3>& points, const BoundingVolumeHierarchy& solid,
+                 const ExtensionOptions& options) {
   const double radius = solid.distance(points.back());
   const double back = std::max(3 * options.step, radius);
   double grown = 0;
@@ -42,7 +43,8 @@ inline void grow(std::vector<Vector3>& points, const BoundingVolumeHierarchy& so
 
 }  // namespace detail
 
-inline void extend_ends(ArcGraph& graph, const BoundingVolumeHierarchy& solid, const ExtensionOptions& options) {
+inline void extend_ends(ArcGraph& graph, const BoundingVolumeHierarchy& solid,
+                        const ExtensionOptions& options) {
   validate(options);
   const auto at = graph.incidence();
   for (Index h = 0; h < graph.hub_count(); ++h) {

@@ -5,11 +5,13 @@
 namespace mspskel {
 namespace detail {
 
-// Replaces the arc's end at `hub` and the points that follow inside the ball by a straight line from the centre.
+// Replaces the arc's end at `hub` and the points that follow inside the ball by a straight line from the
+// centre.
 inline void enter_ball(Arc& arc, int end, const Vector3& centre, double radius) {
   if (end == 1) std::reverse(arc.points.begin(), arc.points.end());
   std::size_t first_outside = 1;
-  while (first_outside + 1 < arc.points.size() && (arc.points[first_outside] - centre).norm() < radius) ++first_outside;
+  while (first_outside + 1 < arc.points.size() && (arc.points[first_outside] - centre).norm() < radius)
+    ++first_outside;
   // Keep the last point inside: from there on the arc is as it was.
   const std::size_t keep = first_outside > 1 ? first_outside - 1 : first_outside;
   const bool old_end_inside = (arc.points.front() - centre).norm() < radius;
@@ -38,12 +40,14 @@ inline Index merge_joints(ArcGraph& graph, const BoundingVolumeHierarchy& solid,
       const double distance = (arc.points.front() - arc.points.back()).norm();
       const double reach = overlap * std::min(radius[arc.hub[0]], radius[arc.hub[1]]);
       // An arc that leaves the balls goes round something and is no connection within them.
-      if (distance >= reach || distance >= shortest || arc_length(arc) > 3 * std::max(reach, distance)) continue;
+      if (distance >= reach || distance >= shortest || arc_length(arc) > 3 * std::max(reach, distance))
+        continue;
       // Contracting one of two parallel arcs would make a loop of the other.
       bool parallel = false;
       for (const Index b : at[arc.hub[0]])
-        parallel = parallel || (b != a && graph.arcs[b].hub[0] + graph.arcs[b].hub[1] == arc.hub[0] + arc.hub[1] &&
-                                (graph.arcs[b].hub[0] == arc.hub[1] || graph.arcs[b].hub[1] == arc.hub[1]));
+        parallel =
+            parallel || (b != a && graph.arcs[b].hub[0] + graph.arcs[b].hub[1] == arc.hub[0] + arc.hub[1] &&
+                         (graph.arcs[b].hub[0] == arc.hub[1] || graph.arcs[b].hub[1] == arc.hub[1]));
       if (parallel) continue;
       shortest = distance;
       best = a;

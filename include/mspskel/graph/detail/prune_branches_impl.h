@@ -19,7 +19,8 @@ struct ArcBalls {
 
   ArcBalls(const ArcGraph& graph, const BoundingVolumeHierarchy& solid) : arc(graph.arcs.size()) {
     for (Index h = 0; h < graph.hub_count(); ++h)
-      hub.push_back({graph.hub_position[h], graph.hub_alive[h] ? solid.distance(graph.hub_position[h]) : 0.0});
+      hub.push_back(
+          {graph.hub_position[h], graph.hub_alive[h] ? solid.distance(graph.hub_position[h]) : 0.0});
     for (std::size_t a = 0; a < arc.size(); ++a)
       if (graph.arcs[a].alive)
         for (std::size_t i = 1; i + 1 < graph.arcs[a].points.size(); ++i)
@@ -43,11 +44,12 @@ inline double median(std::vector<double> values) {
   return *middle;
 }
 
-// Depth over the vertices of the arc and its tip against the balls of all other arcs and of the joint; width from the
-// joint's ball and the slices of the vertices nearest to the joint.
-inline LeafSignificance leaf_significance(const ArcGraph& graph, const SurfaceSnapshot& surface, const ArcBalls& balls,
-                                          const std::vector<std::vector<Index>>& vertices, Index a, Index joint,
-                                          const std::vector<double>& perimeter) {
+// Depth over the vertices of the arc and its tip against the balls of all other arcs and of the joint; width
+// from the joint's ball and the slices of the vertices nearest to the joint.
+inline LeafSignificance leaf_significance(const ArcGraph& graph, const SurfaceSnapshot& surface,
+                                          const ArcBalls& balls,
+                                          const std::vector<std::vector<Index>>& vertices, Index a,
+                                          Index joint, const std::vector<double>& perimeter) {
   LeafSignificance s;
   const Ball& hub = balls.hub[joint];
   std::vector<double> base;
@@ -66,8 +68,9 @@ inline LeafSignificance leaf_significance(const ArcGraph& graph, const SurfaceSn
 
 }  // namespace detail
 
-inline Index prune_branches(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
-                            const std::vector<double>& perimeter, const PruningOptions& options) {
+inline Index prune_branches(ArcGraph& graph, const SurfaceSnapshot& surface,
+                            const BoundingVolumeHierarchy& solid, const std::vector<double>& perimeter,
+                            const PruningOptions& options) {
   validate(options);
   Index removed = 0;
   while (true) {
@@ -87,12 +90,13 @@ inline Index prune_branches(ArcGraph& graph, const SurfaceSnapshot& surface, con
       }
     }
     for (Index v = 0; v < surface.vertex_count(); ++v) {
-      const Index a = graph.arc_of_vertex[v] != kNone        ? graph.arc_of_vertex[v]
+      const Index a = graph.arc_of_vertex[v] != kNone   ? graph.arc_of_vertex[v]
                       : graph.hub_of_vertex[v] != kNone ? leaf_arc_of_hub[graph.hub_of_vertex[v]]
                                                         : kNone;
       if (a != kNone) vertices[a].push_back(v);
     }
-    // The weakest leaf of each joint goes in one sweep: those of different joints hardly depend on one another.
+    // The weakest leaf of each joint goes in one sweep: those of different joints hardly depend on one
+    // another.
     std::vector<std::pair<double, Index>> weakest(graph.hub_position.size(), {1.0, kNone});
     for (const auto& [a, joint] : leaves) {
       const LeafSignificance s =

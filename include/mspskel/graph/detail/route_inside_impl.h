@@ -32,7 +32,8 @@ class InnerGraph {
   Index nearest(const Vector3& x) const {
     Index best = kNone;
     for (Index v = 0; v < surface_.vertex_count(); ++v)
-      if (usable(v) && (best == kNone || (point_[v] - x).squaredNorm() < (point_[best] - x).squaredNorm())) best = v;
+      if (usable(v) && (best == kNone || (point_[v] - x).squaredNorm() < (point_[best] - x).squaredNorm()))
+        best = v;
     return best;
   }
 
@@ -65,7 +66,8 @@ class InnerGraph {
         const Index w = surface_.target(h);
         h = surface_.next_outgoing(h);
         if (!usable(w)) continue;
-        const double next = c + step_cost((point_[w] - point_[v]).norm(), std::min(clearance_[v], clearance_[w]));
+        const double next =
+            c + step_cost((point_[w] - point_[v]).norm(), std::min(clearance_[v], clearance_[w]));
         if (next >= cost[w] || solid_.segment_crosses(point_[v], point_[w])) continue;
         cost[w] = next;
         from[w] = v;
@@ -98,7 +100,8 @@ class InnerGraph {
   std::vector<double> clearance_;
 };
 
-inline void route_arc(Arc& arc, const BoundingVolumeHierarchy& solid, const InnerGraph& inner, RoutingResult& result) {
+inline void route_arc(Arc& arc, const BoundingVolumeHierarchy& solid, const InnerGraph& inner,
+                      RoutingResult& result) {
   std::vector<Vector3> kept{arc.points.front()};
   for (std::size_t i = 1; i + 1 < arc.points.size(); ++i)
     if (solid.inside(arc.points[i])) kept.push_back(arc.points[i]);
@@ -120,7 +123,8 @@ inline void route_arc(Arc& arc, const BoundingVolumeHierarchy& solid, const Inne
 
 }  // namespace detail
 
-inline RoutingResult route_inside(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid) {
+inline RoutingResult route_inside(ArcGraph& graph, const SurfaceSnapshot& surface,
+                                  const BoundingVolumeHierarchy& solid) {
   RoutingResult result;
   std::vector<Index> hubs, arcs;
   for (Index h = 0; h < graph.hub_count(); ++h)

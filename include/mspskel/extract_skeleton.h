@@ -1,0 +1,79 @@
+// From a mesh to its curve skeleton in one call: the composition of the public stages.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mspskel/base/progress.h"
+#include "mspskel/center/skeleton_mesh.h"
+#include "mspskel/center/spatial_coherence.h"
+#include "mspskel/collapse/skeleton_decimater.h"
+#include "mspskel/collapse/volume_cocycles.h"
+#include "mspskel/graph/collapsed_arcs.h"
+#include "mspskel/graph/refine_arcs.h"
+#include "mspskel/mesh/bounding_volume_hierarchy.h"
+#include "mspskel/slice/cone_refinement.h"
+#include "mspskel/slice/plane_search.h"
+#include "mspskel/slice/slice_error.h"
+
+namespace mspskel {
+
+// A mode is a set of option values: default_options() and thesis_options(). This only names it.
+enum class Mode { kDefault, kThesis };
+
+enum class SliceMethod {
+  kSearch,    // slice/plane_search.h
+  kSampling,  // N planes (thesis 3.1), then cone refinement (thesis 3.2)
+};
+
+struct ExtractOptions {
+  Mode mode = Mode::kDefault;
+  SliceMethod slices = SliceMethod::kSearch;
+  SearchOptions search;      // of kSearch
+  SamplingOptions sampling;  // of kSampling
+  ConeOptions cone;          // of kSampling
+  SliceErrorOptions error;
+  SkeletonMeshOptions points;
+  CoherenceOptions coherence;
+  CocycleOptions cocycles;
+  CollapseOptions collapse;
+  RefinementOptions refinement;
+  Execution execution;
+};
+
+// What a user gets: search, coherence, no collapse of limbs, refined arcs.
+ExtractOptions default_options();
+// Every formula and constant of the thesis as printed.
+ExtractOptions thesis_options();
+// Throws UsageError naming the option.
+void validate(const ExtractOptions& options);
+
+struct ExtractResult {
+  CurveSkeleton skeleton;
+
+  // What lies between the stages, in the order in which they ran; lengths in surface.frame.
+  SurfaceSnapshot surface;
+  VertexSlices initial_slices;  // before cone refinement; equal to slices where nothing refines
+  VertexSlices slices;
+  SkeletonMesh skeleton_mesh;
+  VolumeCocycles cocycles;
+  CollapsedSkeleton collapsed;
+  RefinementCounts refinement;
+  std::vector<std::pair<std::string, double>> seconds;  // stage, wall seconds
+  std::vector<std::string> warnings;
+};
+
+// The curve skeleton of a closed, manifold, oriented triangle mesh of any OpenMesh type. Each component gets
+// a piece of its own with as many independent cycles as its genus. The mesh is only read. The result does not
+// depend on the number of threads. Throws MeshError if the mesh is not usable, UsageError for options out of
+// range, Cancelled. Cost: dominated by the slices, about 30 of √V crossings each a vertex.
+template <class Mesh>
+ExtractResult extract_skeleton(const Mesh& mesh, const ExtractOptions& options = default_options());
+
+// The same on a snapshot, which moves into the result.
+ExtractResult extract_skeleton_of_snapshot(SurfaceSnapshot surface, const ExtractOptions& options);
+
+}  // namespace mspskel
+
+#include "mspskel/detail/extract_skeleton_impl.h"
