@@ -17,7 +17,17 @@ struct Family {
       adapt;  // facts that depend on the count; may be empty
 };
 
-std::vector<Family> ring_families();  // surfaces of revolution, prisms, tubes along curves, single polyhedra
+std::vector<Family> ring_families();   // surfaces of revolution, prisms, single polyhedra
+std::vector<Family> knot_families();   // tubes along closed curves: knots, links, chains
+std::vector<Family> block_families();  // blocks and plates with holes and tunnels, thin walls
+std::vector<Family> skin_families();   // skins of graphs: creatures, scaffolds
+
+// The beginning of a family's facts. `least`: the fewest vertices that show the shape without
+// self-intersections.
+SampleInfo facts(const char* name, const char* description, Index genus, Index leaves, Index resolution,
+                 Index least);
+SampleInfo with_ratio(SampleInfo info, const char* of, double value, double least, double most);
+SampleInfo with_count(SampleInfo info, const char* of, Index value, Index least, Index most);
 
 // The tessellation of a surface of that area at the wanted resolution.
 Tessellation tessellation(double area, const SampleOptions& options);

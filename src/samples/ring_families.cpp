@@ -6,42 +6,14 @@ namespace mspskel::detail {
 
 namespace {
 
-SampleInfo info(const char* name, const char* description, Index genus, Index leaves, Index resolution,
-                Index least) {
-  SampleInfo i;
-  i.name = name;
-  i.description = description;
-  i.genus = genus;
-  i.leaves = leaves;
-  i.resolution = resolution;
-  i.least_resolution = least;
-  return i;
-}
-
-SampleInfo with_ratio(SampleInfo i, const char* of, double value, double least, double most) {
-  i.ratio_of = of;
-  i.ratio = value;
-  i.least_ratio = least;
-  i.most_ratio = most;
-  return i;
-}
-
-SampleInfo with_count(SampleInfo i, const char* of, Index value, Index least, Index most) {
-  i.count_of = of;
-  i.count = value;
-  i.least_count = least;
-  i.most_count = most;
-  return i;
-}
-
 Family sphere() {
-  return {info("sphere", "unit sphere", 0, kNone, 1000, 20),
+  return {facts("sphere", "unit sphere", 0, kNone, 1000, 20),
           [](const SampleOptions& o) { return make_sphere(1, tessellation(4 * kPi, o)); },
           {}};
 }
 
 Family capsule() {
-  return {with_ratio(info("capsule", "cylinder of radius 1 with half spheres at its ends", 0, 2, 1500, 30),
+  return {with_ratio(facts("capsule", "cylinder of radius 1 with half spheres at its ends", 0, 2, 1500, 30),
                      "length of the cylinder / radius", 6, 0.1, 100),
           [](const SampleOptions& o) {
             return make_capsule(1, o.ratio, tessellation(2 * kPi * o.ratio + 4 * kPi, o));
@@ -50,7 +22,7 @@ Family capsule() {
 }
 
 Family tube() {
-  return {with_ratio(info("tube", "cylinder of radius 1 with flat ends", 0, 2, 1500, 40), "length / radius",
+  return {with_ratio(facts("tube", "cylinder of radius 1 with flat ends", 0, 2, 1500, 40), "length / radius",
                      8, 0.1, 100),
           [](const SampleOptions& o) {
             return make_tube(1, o.ratio, tessellation(2 * kPi * o.ratio + 2 * kPi, o));
@@ -63,24 +35,61 @@ Family prism() {
     const double side = 2 * std::sin(kPi / o.count), base = o.count * std::sin(2 * kPi / o.count) / 2;
     return make_prism(o.count, 1, o.ratio, tessellation(o.count * side * o.ratio + 2 * base, o));
   };
-  return {with_ratio(with_count(info("prism", "right prism over a regular polygon with corners at distance 1",
-                                     0, 2, 1500, 40),
-                                "sides", 6, 3, 100),
-                     "height / corner distance", 8, 0.1, 100),
-          make,
-          {}};
+  return {
+      with_ratio(with_count(facts("prism", "right prism over a regular polygon with corners at distance 1", 0,
+                                  2, 1500, 40),
+                            "sides", 6, 3, 100),
+                 "height / corner distance", 8, 0.1, 100),
+      make,
+      {}};
 }
 
 Family torus() {
   return {
-      with_ratio(info("torus", "torus of major radius 1", 1, 0, 2000, 60), "minor radius / major radius", 0.3,
-                 0.02, 0.96),
+      with_ratio(facts("torus", "torus of major radius 1", 1, 0, 2000, 60), "minor radius / major radius",
+                 0.3, 0.02, 0.96),
       [](const SampleOptions& o) { return make_torus(1, o.ratio, tessellation(4 * kPi * kPi * o.ratio, o)); },
       {}};
 }
 
+Family bowl() {
+  return {with_ratio(
+              facts("bowl", "half a spherical shell of outer radius 1, open at the top", 0, kNone, 3000, 300),
+              "wall / outer radius", 0.1, 0.02, 0.5),
+          [](const SampleOptions& o) {
+            const double inner = 1 - o.ratio;
+            return make_bowl(1, o.ratio,
+                             tessellation(2 * kPi * (1 + inner * inner) + kPi * kPi * o.ratio, o));
+          },
+          {}};
+}
+
+Family shell() {
+  SampleInfo info =
+      with_ratio(facts("shell", "unit ball with a round cavity, whose surface is a second component", 0,
+                       kNone, 2000, 60),
+                 "cavity radius / outer radius", 0.6, 0.05, 0.9);
+  info.components = 2;
+  const auto make = [](const SampleOptions& o) {
+    const Tessellation t = tessellation(4 * kPi * (1 + o.ratio * o.ratio), o);
+    PolygonSoup soup = make_sphere(1, t), cavity = make_sphere(o.ratio, t);
+    reverse_orientation(cavity);
+    append(soup, cavity);
+    return soup;
+  };
+  return {info, make, {}};
+}
+
+Family csaszar() {
+  return {facts("csaszar-torus", "the torus of 7 vertices and 14 faces, at any resolution", 1, kNone, 7, 7),
+          [](const SampleOptions&) { return make_csaszar_torus(); },
+          {}};
+}
+
 }  // namespace
 
-std::vector<Family> ring_families() { return {sphere(), capsule(), tube(), prism(), torus()}; }
+std::vector<Family> ring_families() {
+  return {sphere(), capsule(), tube(), prism(), torus(), bowl(), shell(), csaszar()};
+}
 
 }  // namespace mspskel::detail

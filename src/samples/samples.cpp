@@ -19,6 +19,34 @@ Tessellation tessellation(double area, const SampleOptions& options) {
   t.seed = options.seed;
   return t;
 }
+
+SampleInfo facts(const char* name, const char* description, Index genus, Index leaves, Index resolution,
+                 Index least) {
+  SampleInfo info;
+  info.name = name;
+  info.description = description;
+  info.genus = genus;
+  info.leaves = leaves;
+  info.resolution = resolution;
+  info.least_resolution = least;
+  return info;
+}
+
+SampleInfo with_ratio(SampleInfo info, const char* of, double value, double least, double most) {
+  info.ratio_of = of;
+  info.ratio = value;
+  info.least_ratio = least;
+  info.most_ratio = most;
+  return info;
+}
+
+SampleInfo with_count(SampleInfo info, const char* of, Index value, Index least, Index most) {
+  info.count_of = of;
+  info.count = value;
+  info.least_count = least;
+  info.most_count = most;
+  return info;
+}
 }  // namespace detail
 
 namespace {
@@ -26,7 +54,10 @@ using detail::Family;
 
 const std::vector<Family>& families() {
   static const std::vector<Family> all = [] {
-    std::vector<Family> list = detail::ring_families();
+    std::vector<Family> list;
+    for (const auto& part : {detail::ring_families(), detail::knot_families(), detail::block_families(),
+                             detail::skin_families()})
+      list.insert(list.end(), part.begin(), part.end());
     std::sort(list.begin(), list.end(),
               [](const Family& a, const Family& b) { return a.info.name < b.info.name; });
     return list;
@@ -71,31 +102,46 @@ std::string number(double x) {
   return text;
 }
 
-// Puts the sample's defaults in place of zeros and checks the ranges.
-SampleOptions complete(const SampleInfo& info, SampleOptions options) {
-  constexpr Index kMostVertices = 10'000'000;
-  if (options.resolution == 0) options.resolution = info.resolution;
-  if (options.resolution < info.least_resolution || options.resolution > kMostVertices)
-    throw UsageError("resolution of sample " + info.name + " must lie in [" +
-                     std::to_string(info.least_resolution) + ", " + std::to_string(kMostVertices) + "]");
-  if (!(options.jitter >= 0 && options.jitter <= 0.3)) throw UsageError("jitter must lie in [0, 0.3]");
+// One sample with its facts for the given count, and the options with defaults in place of zeros.
+struct Order {
+  const Family* family;
+  SampleInfo info;
+  SampleOptions options;
+};
+
+[[noreturn]] void out_of_range(const SampleInfo& info, const std::string& option, const std::string& least,
+                               const std::string& most) {
+  throw UsageError(option + " of sample " + info.name + " must lie in [" + least + ", " + most + "]");
+}
+
+void complete_count(const SampleInfo& info, SampleOptions& options) {
   if (options.count != 0 && info.count_of.empty()) throw UsageError("sample " + info.name + " has no count");
-  if (options.count == 0 && options.count < info.least_count) options.count = info.count;
+  if (options.count == 0) options.count = info.count;
   if (options.count < info.least_count || options.count > info.most_count)
-    throw UsageError("count of sample " + info.name + " (" + info.count_of + ") must lie in [" +
-                     std::to_string(info.least_count) + ", " + std::to_string(info.most_count) + "]");
+    out_of_range(info, "count (" + info.count_of + ")", std::to_string(info.least_count),
+                 std::to_string(info.most_count));
+}
+
+void complete_ratio(const SampleInfo& info, SampleOptions& options) {
   if (options.ratio != 0 && info.ratio_of.empty()) throw UsageError("sample " + info.name + " has no ratio");
   if (options.ratio == 0) options.ratio = info.ratio;
   if (!(options.ratio >= info.least_ratio && options.ratio <= info.most_ratio))
-    throw UsageError("ratio of sample " + info.name + " (" + info.ratio_of + ") must lie in [" +
-                     number(info.least_ratio) + ", " + number(info.most_ratio) + "]");
-  return options;
+    out_of_range(info, "ratio (" + info.ratio_of + ")", number(info.least_ratio), number(info.most_ratio));
 }
 
-SampleInfo describe(const Family& family, const SampleOptions& completed) {
-  SampleInfo info = family.info;
-  if (family.adapt) family.adapt(info, completed);
-  return info;
+Order complete(const Family& family, const SampleOptions& options) {
+  constexpr Index kMostVertices = 10'000'000;
+  Order order{&family, family.info, options};
+  complete_count(order.info, order.options);
+  complete_ratio(order.info, order.options);
+  if (family.adapt) family.adapt(order.info, order.options);
+  Index& resolution = order.options.resolution;
+  if (resolution == 0) resolution = order.info.resolution;
+  if (resolution < order.info.least_resolution || resolution > kMostVertices)
+    out_of_range(order.info, "resolution", std::to_string(order.info.least_resolution),
+                 std::to_string(kMostVertices));
+  if (!(options.jitter >= 0 && options.jitter <= 0.3)) throw UsageError("jitter must lie in [0, 0.3]");
+  return order;
 }
 
 double mean_edge(const PolygonSoup& soup) {
@@ -146,23 +192,21 @@ bool has_topology(const PolygonSoup& soup, const SampleInfo& info) {
 
 std::vector<SampleInfo> list_samples() {
   std::vector<SampleInfo> result;
-  for (const Family& family : families()) result.push_back(describe(family, complete(family.info, {})));
+  for (const Family& family : families()) result.push_back(complete(family, {}).info);
   return result;
 }
 
 SampleInfo describe_sample(const std::string& name, const SampleOptions& options) {
-  const Family& family = find_family(name);
-  return describe(family, complete(family.info, options));
+  return complete(find_family(name), options).info;
 }
 
 PolygonSoup make_sample(const std::string& name, const SampleOptions& options) {
-  const Family& family = find_family(name);
-  const SampleOptions completed = complete(family.info, options);
-  PolygonSoup soup = family.make(completed);
-  if (!has_topology(soup, describe(family, completed)))
-    throw UsageError("a resolution of " + std::to_string(completed.resolution) + " is too low for sample " +
-                     name + "; use a larger --resolution");
-  if (completed.jitter > 0) jitter(soup, completed.jitter, completed.seed);
+  const Order order = complete(find_family(name), options);
+  PolygonSoup soup = order.family->make(order.options);
+  if (!has_topology(soup, order.info))
+    throw UsageError("a resolution of " + std::to_string(order.options.resolution) +
+                     " is too low for sample " + name + "; use a larger --resolution");
+  if (order.options.jitter > 0) jitter(soup, order.options.jitter, order.options.seed);
   return soup;
 }
 

@@ -203,6 +203,102 @@ PolygonSoup make_prism(Index sides, double radius, double height, const Tessella
   return soup;
 }
 
+namespace {
+// A closed curve at equal steps of arc length, each point with a frame that turns round the tangent as little
+// as possible.
+struct FramedCurve {
+  std::vector<Vector3> point, tangent, across;
+};
+
+std::vector<double> equal_steps(const std::function<Vector3(double)>& curve, Index count, double& length) {
+  const Index fine = std::max<Index>(2048, 4 * count);
+  std::vector<double> arc{0.0};
+  for (Index i = 0; i < fine; ++i)
+    arc.push_back(arc.back() + (curve((i + 1.0) / fine) - curve(static_cast<double>(i) / fine)).norm());
+  length = arc.back();
+  std::vector<double> parameter;
+  Index i = 0;
+  for (Index k = 0; k < count; ++k) {
+    const double wanted = length * k / count;
+    while (arc[i + 1] < wanted) ++i;
+    parameter.push_back((i + (wanted - arc[i]) / (arc[i + 1] - arc[i])) / fine);
+  }
+  return parameter;
+}
+
+// Frames by parallel transport; what is missing to a full turn at the end is spread over the curve (Bishop
+// 1975).
+FramedCurve framed(const std::function<Vector3(double)>& curve, const std::vector<double>& parameter) {
+  FramedCurve f;
+  constexpr double kStep = 1e-5;
+  for (const double u : parameter) {
+    f.point.push_back(curve(u));
+    f.tangent.push_back((curve(u + kStep) - curve(u - kStep)).normalized());
+  }
+  const std::size_t count = parameter.size();
+  Vector3 across = f.tangent[0].unitOrthogonal();
+  for (std::size_t k = 0; k <= count; ++k) {
+    const Vector3& tangent = f.tangent[k % count];
+    across = (across - across.dot(tangent) * tangent).normalized();
+    if (k < count) f.across.push_back(across);
+  }
+  const double gap = std::atan2(f.tangent[0].dot(across.cross(f.across[0])), across.dot(f.across[0]));
+  for (std::size_t k = 0; k < count; ++k)
+    f.across[k] = Eigen::AngleAxisd(gap * static_cast<double>(k) / static_cast<double>(count), f.tangent[k]) *
+                  f.across[k];
+  return f;
+}
+}  // namespace
+
+PolygonSoup make_closed_tube(const std::function<Vector3(double)>& curve, double radius,
+                             const Tessellation& t) {
+  check(t);
+  check_positive(radius, "radius");
+  double length = 0;
+  equal_steps(curve, 1, length);
+  const Index count = std::max<Index>(6, static_cast<Index>(std::lround(2 * kPi * radius / t.edge)));
+  const Index rows = std::max<Index>(8, static_cast<Index>(std::lround(length / (kRowHeight * t.edge))));
+  const FramedCurve f = framed(curve, equal_steps(curve, rows, length));
+  PolygonSoup soup;
+  Ring first, last;
+  for (Index row = 0; row < rows; ++row) {
+    const Vector3 up = f.tangent[row].cross(f.across[row]);
+    const auto id = static_cast<std::uint64_t>(row);
+    const double start = 0.5 * noise(t.seed, id) / count;
+    Ring ring;
+    for (Index i = 0; i < count; ++i) {
+      const double turn =
+          start + (i + t.irregularity * noise(t.seed + 1, id, static_cast<std::uint64_t>(i))) / count;
+      const double angle = 2 * kPi * turn;
+      ring.turn.push_back(turn);
+      ring.vertex.push_back(detail::add_point(
+          soup, f.point[row] + radius * (std::cos(angle) * f.across[row] + std::sin(angle) * up)));
+    }
+    if (row == 0)
+      first = ring;
+    else
+      detail::zip(soup, last, ring);
+    last = std::move(ring);
+  }
+  detail::zip(soup, last, first);
+  return soup;
+}
+
+PolygonSoup make_csaszar_torus() {
+  PolygonSoup soup;
+  soup.points = {{3, -3, 0}, {-3, 3, 0}, {-3, -3, 1}, {3, 3, 1}, {-1, -2, 3}, {1, 2, 3}, {0, 0, 15}};
+  constexpr Index kFaces[14][3] = {{0, 1, 2}, {3, 1, 0}, {0, 2, 6}, {4, 3, 0}, {5, 4, 0},
+                                   {6, 5, 0}, {5, 2, 1}, {1, 3, 6}, {1, 4, 5}, {6, 4, 1},
+                                   {2, 3, 4}, {5, 3, 2}, {2, 4, 6}, {3, 5, 6}};
+  for (const auto& f : kFaces) soup.add_triangle(f[0], f[2], f[1]);
+  return soup;
+}
+
+PolygonSoup moved(PolygonSoup soup, const Eigen::Matrix3d& turn, const Vector3& shift) {
+  for (Vector3& p : soup.points) p = turn * p + shift;
+  return soup;
+}
+
 void append(PolygonSoup& soup, const PolygonSoup& other) {
   const auto shift = static_cast<Index>(soup.points.size());
   const Index base = soup.begin.back();

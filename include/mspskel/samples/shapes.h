@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
 #include "mspskel/mesh/polygon_soup.h"
 
@@ -41,8 +42,19 @@ PolygonSoup make_prism(Index sides, double radius, double height, const Tessella
 // Half a spherical shell of the given wall thickness < radius, its rim rounded; opens toward +z.
 PolygonSoup make_bowl(double radius, double wall, const Tessellation& tessellation);
 
+// Tube of constant radius round a closed curve, t in [0, 1). Precondition: the radius is below the curve's
+// radius of curvature and half the distance between its strands.
+PolygonSoup make_closed_tube(const std::function<Vector3(double)>& curve, double radius,
+                             const Tessellation& tessellation);
+
+// The 7-vertex torus: 7 vertices, 21 edges, 14 faces, no diagonals, embedded (Császár 1949).
+PolygonSoup make_csaszar_torus();
+
 // Appends `other` to `soup` as further components.
 void append(PolygonSoup& soup, const PolygonSoup& other);
+
+// Turns and moves every point: x -> turn · x + shift. Precondition: `turn` is a rotation.
+PolygonSoup moved(PolygonSoup soup, const Eigen::Matrix3d& turn, const Vector3& shift);
 
 // Turns the surface inside out: cavities have inward pointing boundaries.
 void reverse_orientation(PolygonSoup& soup);

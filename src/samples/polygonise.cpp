@@ -1,0 +1,182 @@
+#include "mspskel/samples/polygonise.h"
+
+#include <array>
+#include <cmath>
+#include <unordered_map>
+
+#include "mspskel/base/error.h"
+#include "mspskel/samples/shapes.h"
+
+namespace mspskel {
+
+namespace {
+
+using Cell = std::array<std::int64_t, 3>;
+constexpr int kBlock = 4;  // cells along the side of the smallest cube that is skipped or visited as a whole
+constexpr int kSide = kBlock + 1;
+
+// The six tetrahedra of a cube: one for each order of the axes, from corner 000 to corner 111; corners as
+// bits xyz. Neighbouring cubes cut their common face along the same diagonal. All have positive orientation.
+constexpr std::array<std::array<int, 4>, 6> kKuhn{
+    {{0, 1, 3, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 3, 2, 7}, {0, 6, 4, 7}, {0, 5, 1, 7}}};
+
+class March {
+ public:
+  March(const ImplicitSolid& solid, double cell) : solid_(solid), cell_(cell) {
+    const Vector3 span = solid.high - solid.low;
+    std::int64_t blocks = 1;
+    while (static_cast<double>(blocks * kBlock) * cell < span.maxCoeff() + 2 * cell) blocks *= 2;
+    if (blocks * kBlock > (1 << 20)) throw UsageError("the resolution is too high for the solid's size");
+    side_ = blocks * kBlock + 1;
+    // The shift keeps symmetric solids from meeting grid points exactly.
+    origin_ = solid.low - cell * Vector3(0.8190, 0.7548, 0.6710);
+    visit({0, 0, 0}, blocks * kBlock);
+  }
+  PolygonSoup result() { return std::move(soup_); }
+
+ private:
+  Vector3 at(const Cell& c) const {
+    return origin_ +
+           cell_ * Vector3(static_cast<double>(c[0]), static_cast<double>(c[1]), static_cast<double>(c[2]));
+  }
+
+  // An octree of cubes: where the function's value exceeds the way to the corner there is no surface.
+  void visit(const Cell& low, std::int64_t size) {
+    const double half = 0.5 * cell_ * static_cast<double>(size);
+    const double center = solid_.value(at(low) + Vector3::Constant(half));
+    if (std::abs(center) > 1.0001 * std::sqrt(3.0) * half) return;
+    if (size == kBlock) return march_block(low);
+    for (int k = 0; k < 8; ++k)
+      visit({low[0] + (k & 1) * size / 2, low[1] + (k >> 1 & 1) * size / 2, low[2] + (k >> 2) * size / 2},
+            size / 2);
+  }
+
+  void march_block(const Cell& low) {
+    std::array<double, kSide * kSide * kSide> value;
+    std::size_t i = 0;
+    for (int z = 0; z < kSide; ++z)
+      for (int y = 0; y < kSide; ++y)
+        for (int x = 0; x < kSide; ++x) value[i++] = solid_.value(at({low[0] + x, low[1] + y, low[2] + z}));
+    for (int z = 0; z < kBlock; ++z)
+      for (int y = 0; y < kBlock; ++y)
+        for (int x = 0; x < kBlock; ++x) {
+          std::array<double, 8> corner;
+          for (int k = 0; k < 8; ++k)
+            corner[k] = value[((z + (k >> 2)) * kSide + y + (k >> 1 & 1)) * kSide + x + (k & 1)];
+          march_cube({low[0] + x, low[1] + y, low[2] + z}, corner);
+        }
+  }
+
+  void march_cube(const Cell& low, const std::array<double, 8>& value) {
+    int inside = 0;
+    for (const double v : value) inside += v < 0;
+    if (inside == 0 || inside == 8) return;
+    for (const auto& tetrahedron : kKuhn) march_tetrahedron(low, value, tetrahedron);
+  }
+
+  // With inside corners first, in an even permutation: one inside gives the triangle ab ac ad, two the quad
+  // ac ad bd bc.
+  void march_tetrahedron(const Cell& low, const std::array<double, 8>& value,
+                         const std::array<int, 4>& corners) {
+    std::array<int, 4> t{};
+    int inside = 0, outside = 4, swaps = 0;
+    for (int k = 0; k < 4; ++k)
+      if (value[corners[k]] < 0)
+        t[inside++] = k;
+      else
+        t[--outside] = k;
+    if (inside == 0 || inside == 4) return;
+    for (int i = 0; i < 4; ++i)
+      for (int j = i + 1; j < 4; ++j) swaps += t[i] > t[j];
+    if (swaps % 2 == 1) std::swap(inside == 1 ? t[2] : t[0], inside == 1 ? t[3] : t[1]);
+    const auto cut = [&](int i, int j) { return vertex(low, value, corners[t[i]], corners[t[j]]); };
+    if (inside == 1) {
+      soup_.add_triangle(cut(0, 1), cut(0, 2), cut(0, 3));
+    } else if (inside == 3) {
+      soup_.add_triangle(cut(0, 3), cut(1, 3), cut(2, 3));
+    } else {
+      const Index ac = cut(0, 2), ad = cut(0, 3), bd = cut(1, 3), bc = cut(1, 2);
+      soup_.add_triangle(ac, ad, bd);
+      soup_.add_triangle(ac, bd, bc);
+    }
+  }
+
+  // The vertex on the edge between two corners of a cube, made once. An edge is its lower corner and its
+  // direction.
+  Index vertex(const Cell& low, const std::array<double, 8>& value, int a, int b) {
+    if (a > b) std::swap(a, b);  // along each edge of the pattern bits are only added
+    const Cell from{low[0] + (a & 1), low[1] + (a >> 1 & 1), low[2] + (a >> 2)};
+    const std::int64_t key = ((from[2] * side_ + from[1]) * side_ + from[0]) * 8 + (a ^ b);
+    const auto [place, is_new] = vertex_.try_emplace(key, static_cast<Index>(soup_.points.size()));
+    if (is_new) {
+      const Cell to{low[0] + (b & 1), low[1] + (b >> 1 & 1), low[2] + (b >> 2)};
+      // Off the corners, or vertices of several edges would coincide there.
+      const double t = std::clamp(value[a] / (value[a] - value[b]), 0.03, 0.97);
+      soup_.points.push_back((1 - t) * at(from) + t * at(to));
+    }
+    return place->second;
+  }
+
+  const ImplicitSolid& solid_;
+  double cell_;
+  std::int64_t side_ = 0;
+  Vector3 origin_;
+  std::unordered_map<std::int64_t, Index> vertex_;
+  PolygonSoup soup_;
+};
+
+double area(const PolygonSoup& soup) {
+  double sum = 0;
+  for (std::size_t c = 0; c < soup.corners.size(); c += 3) {
+    const Vector3& a = soup.points[soup.corners[c]];
+    sum += (soup.points[soup.corners[c + 1]] - a).cross(soup.points[soup.corners[c + 2]] - a).norm() / 2;
+  }
+  return sum;
+}
+
+// Whether a face looks against the function's growth at all three corners together: where triangles are too
+// large for a thin part, remeshing can turn one over.
+bool is_folded(const PolygonSoup& soup, const ImplicitSolid& solid, double edge) {
+  const double step = 0.02 * edge;
+  std::vector<Vector3> up;
+  for (const Vector3& p : soup.points) {
+    Vector3 gradient;
+    for (Eigen::Index k = 0; k < 3; ++k)
+      gradient[k] = solid.value(p + step * Vector3::Unit(k)) - solid.value(p - step * Vector3::Unit(k));
+    up.push_back(gradient);
+  }
+  for (std::size_t c = 0; c < soup.corners.size(); c += 3) {
+    const Index p = soup.corners[c], q = soup.corners[c + 1], r = soup.corners[c + 2];
+    const Vector3 normal = (soup.points[q] - soup.points[p]).cross(soup.points[r] - soup.points[p]);
+    if (!(normal.dot(up[p] + up[q] + up[r]) > 0)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+PolygonSoup march_tetrahedra(const ImplicitSolid& solid, double cell) {
+  if (!(cell > 0) || !std::isfinite(cell)) throw UsageError("cell must be a positive number");
+  return March(solid, cell).result();
+}
+
+PolygonSoup polygonise(const ImplicitSolid& solid, Index vertices, double thinnest) {
+  double cell = thinnest;
+  PolygonSoup soup;
+  RemeshOptions options;
+  for (int attempt = 0; attempt < 4; ++attempt) {
+    soup = march_tetrahedra(solid, cell);
+    if (soup.points.empty()) throw UsageError("the resolution is too low to see the solid");
+    // Remeshing ends with edges a little shorter than asked for.
+    options.edge = 1.08 * edge_for_vertices(area(soup), vertices);
+    const double wanted = std::min(thinnest, options.edge);
+    if (wanted > 0.75 * cell) break;
+    cell = wanted;
+  }
+  soup = remesh(soup, solid, options);
+  if (is_folded(soup, solid, options.edge))
+    throw UsageError("the resolution is too low for the solid's thinnest parts");
+  return soup;
+}
+
+}  // namespace mspskel
