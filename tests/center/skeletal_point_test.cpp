@@ -17,10 +17,11 @@ SkeletalPointOptions with(SkeletalPointMethod method) {
 
 const auto kForces = {SkeletalPointMethod::kSampledForce, SkeletalPointMethod::kClosedForm};
 const auto kInsideMethods = {SkeletalPointMethod::kSampledForce, SkeletalPointMethod::kClosedForm,
-                             SkeletalPointMethod::kAreaField, SkeletalPointMethod::kVisibleField};
-const auto kAll = {SkeletalPointMethod::kCentre, SkeletalPointMethod::kSampledForce,
-                   SkeletalPointMethod::kClosedForm, SkeletalPointMethod::kAreaField,
-                   SkeletalPointMethod::kVisibleField};
+                             SkeletalPointMethod::kAreaField, SkeletalPointMethod::kVisibleField,
+                             SkeletalPointMethod::kNearestValley};
+const auto kAll = {SkeletalPointMethod::kCentre,       SkeletalPointMethod::kSampledForce,
+                   SkeletalPointMethod::kClosedForm,   SkeletalPointMethod::kAreaField,
+                   SkeletalPointMethod::kVisibleField, SkeletalPointMethod::kNearestValley};
 
 }  // namespace
 
@@ -29,6 +30,8 @@ TEST_CASE("symmetric polygons have their skeletal point at the centre") {
                                        rectangle(1, 1, 8), rectangle(2, 1, 7)};
   for (const Polygon& shape : shapes)
     for (auto method : kAll) {
+      // A 2:1 rectangle has a valley along its middle line already.
+      if (method == SkeletalPointMethod::kNearestValley && shape.size() == 28) continue;
       const PlanarRegion region(transformed(shape, 1, 0.3, {5, -2}));
       const SkeletalPoint point = find_skeletal_point(region, with(method));
       CAPTURE(shape.size(), static_cast<int>(method), point.position.transpose());
@@ -100,6 +103,28 @@ TEST_CASE("holes repel") {
       CHECK(region.distance(point.position) > 0.4);
     }
   }
+}
+
+TEST_CASE("the nearest valley of a ring lies in the middle of the wall beside the first contour point") {
+  for (double turn : {0.0, 1.0, 2.5}) {
+    const PlanarRegion region(transformed(ellipse(2, 2, 90), 1, turn, {0, 0}), {ellipse(1.6, 1.6, 70)});
+    const SkeletalPoint point = find_skeletal_point(region, with(SkeletalPointMethod::kNearestValley));
+    CHECK(point.stop == SkeletalPointStop::kConverged);
+    CHECK((point.position - 1.8 * region.point(0).normalized()).norm() <
+          0.1 * 0.4);  // curvature shifts it a little
+  }
+  const PlanarRegion disc(ellipse(1.2, 1, 40));
+  CHECK(find_skeletal_point(disc, with(SkeletalPointMethod::kNearestValley)).position.norm() < 1e-4);
+}
+
+TEST_CASE("fields of filled regions stay well inside rings and thin strips") {
+  for (auto method : {SkeletalPointMethod::kAreaField, SkeletalPointMethod::kVisibleField})
+    for (const PlanarRegion& region : {PlanarRegion(ellipse(2, 2, 90), {ellipse(1.6, 1.6, 70)}),
+                                       PlanarRegion(crescent(0.05, 5, 90)), PlanarRegion(uneven_u_shape())}) {
+      const SkeletalPoint point = find_skeletal_point(region, with(method));
+      CHECK(region.contains(point.position));
+      CHECK(region.distance(point.position) > 0.2 * region.mean_width());
+    }
 }
 
 TEST_CASE("the vote picks the lobe with more contour") {

@@ -11,9 +11,9 @@ using namespace mspskel::test;
 
 namespace {
 
-constexpr SkeletalPointMethod kMethods[] = {SkeletalPointMethod::kCentre, SkeletalPointMethod::kSampledForce,
-                                            SkeletalPointMethod::kClosedForm, SkeletalPointMethod::kAreaField,
-                                            SkeletalPointMethod::kVisibleField};
+constexpr SkeletalPointMethod kMethods[] = {
+    SkeletalPointMethod::kCentre,    SkeletalPointMethod::kSampledForce, SkeletalPointMethod::kClosedForm,
+    SkeletalPointMethod::kAreaField, SkeletalPointMethod::kVisibleField, SkeletalPointMethod::kNearestValley};
 
 struct Sliced {
   SurfaceSnapshot surface;
@@ -87,6 +87,7 @@ TEST_CASE("hole contours of the same plane are found and repel") {
     const BoundingVolumeHierarchy solid(s.surface);
     for (auto holes : {HoleSearch::kProbe, HoleSearch::kAll}) {
       SkeletonMeshOptions options = with(SkeletalPointMethod::kClosedForm, holes);
+      if (shift.x() > 0) options.method_with_holes = SkeletalPointMethod::kClosedForm;
       options.solid = &solid;
       const SkeletonMesh skeleton = make_skeleton_mesh(s.tracer, s.slices, options);
       CHECK(skeleton.with_holes > 0);

@@ -13,6 +13,10 @@ enum class SkeletalPointMethod {
   kClosedForm,    // the same steps on Eq. 4.1 integrated along the contour, by Newton's method
   kAreaField,     // where the field of the filled region vanishes, from the region's centroid
   kVisibleField,  // where the field of the part visible from the point itself vanishes
+  // Closed form, without a vote: from the region's first contour point down into the nearest valley of the
+  // potential, and not along it. For regions without one centre, such as the ring of a cup's wall: neighbours
+  // on the surface get neighbouring points.
+  kNearestValley,
 };
 
 struct SkeletalPointOptions {
@@ -44,7 +48,7 @@ enum class SkeletalPointStop {
   kShoulder,    // sampled force: the winner stopped where the force grows, as the thesis says, though it has
                 // not vanished
   kIterations,  // the winner ran out of iterations or of room for smaller steps
-  kClosedFormInstead,  // the field of the filled or visible region has no zero near: the closed form's point
+  kClosedFormInstead,  // no zero of the filled or visible region's field well inside: the closed form's point
   kDeepestSample,      // no sample got anywhere: the one farthest from the contour
   kDegenerate,         // no region to speak of: the contour's centre
 };

@@ -21,6 +21,9 @@ enum class HoleSearch {
 struct SkeletonMeshOptions {
   SkeletalPointOptions point;
   HoleSearch holes = HoleSearch::kIgnore;
+  // Where holes are found. A vote among the minima of a ring scatters the points of neighbouring vertices all
+  // round it.
+  SkeletalPointMethod method_with_holes = SkeletalPointMethod::kNearestValley;
   // For the hole search; built here if there is none.
   const BoundingVolumeHierarchy* solid = nullptr;
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "mspskel/center/planar_region.h"
 #include "mspskel/center/repulsive_force.h"
@@ -33,14 +34,23 @@ struct Eigen2 {
   }
 };
 
+struct DescentRule {
+  double tolerance = 1e-3;  // in mean widths
+  Index max_iterations = 200;
+  // Stay in the cross-section of a valley: no step along the flat axis where its eigenvalue is below this
+  // share of the steep one's.
+  double flat = -std::numeric_limits<double>::infinity();
+};
+
 // Newton's step with the Hessian's eigenvalues replaced by their absolute values, floored: downhill always,
 // and away from saddles.
-inline Vector2 newton_step(const FieldValue& f, const Eigen2& e) {
+inline Vector2 newton_step(const FieldValue& f, const Eigen2& e, double flat) {
   const Vector2 high_axis = turn_left(e.low_axis);
   const double floor = 1e-3 * std::max(std::abs(e.low), std::abs(e.high));
   if (!(floor > 0)) return Vector2::Zero();
-  return f.force.dot(e.low_axis) / std::max(std::abs(e.low), floor) * e.low_axis +
-         f.force.dot(high_axis) / std::max(std::abs(e.high), floor) * high_axis;
+  const Vector2 steep = f.force.dot(high_axis) / std::max(std::abs(e.high), floor) * high_axis;
+  if (e.low < flat * e.high) return steep;
+  return f.force.dot(e.low_axis) / std::max(std::abs(e.low), floor) * e.low_axis + steep;
 }
 
 // Shortens a step that would cross a contour to three quarters of the way there.
@@ -52,21 +62,21 @@ inline Vector2 shorten_to_contour(const PlanarRegion& region, const Vector2& fro
 // Modified Newton with backtracking on the potential. `field(p)` returns a FieldValue, `region` bounds the
 // samples, `near(p)` returns the index of a known minimum that p may join, or kNone.
 template <class Field, class Near>
-Descent descend(const PlanarRegion& region, const Field& field, Vector2 start, double tolerance,
-                Index max_iterations, const Near& near) {
+Descent descend(const PlanarRegion& region, const Field& field, Vector2 start, const DescentRule& rule,
+                const Near& near) {
   constexpr double kMaxStep = 0.25, kArmijo = 1e-4, kSmallest = 1e-9;  // lengths in perimeters
-  const double unit = region.perimeter(), small = tolerance * region.mean_width();
+  const double unit = region.perimeter(), small = rule.tolerance * region.mean_width();
   Descent d;
   d.position = start;
   FieldValue value = field(start);
   bool nudged = false;
-  while (d.iterations < max_iterations) {
+  while (d.iterations < rule.max_iterations) {
     d.potential = value.potential;
     d.joined = near(d.position);
     if (d.joined != kNone || !std::isfinite(value.potential)) return d;
     const Eigen2 e(value);
-    Vector2 step = newton_step(value, e);
-    if (step.norm() < small && e.low < 0 && !nudged) {
+    Vector2 step = newton_step(value, e, rule.flat);
+    if (step.norm() < small && e.low < 0 && e.low >= rule.flat * e.high && !nudged) {
       // On a saddle: leave it once along its downhill axis, in the direction of the remaining force if there
       // is any.
       step += (step.dot(e.low_axis) < 0 ? -10.0 : 10.0) * small * e.low_axis;

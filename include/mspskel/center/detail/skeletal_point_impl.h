@@ -183,6 +183,11 @@ inline bool decided(const std::vector<Minimum>& minima, Index remaining) {
   return minima[best].votes > second + remaining;
 }
 
+inline DescentRule rule_of(const SkeletalPointOptions& options) {
+  return {options.tolerance, options.max_iterations, -std::numeric_limits<double>::infinity()};
+}
+inline Index none_near(const Vector2&) { return kNone; }
+
 // Descends from the starts, a descent that comes within the merge radius of a minimum already found joins it,
 // and ends as soon as the vote is decided.
 inline std::vector<Minimum> find_minima(const PlanarRegion& region, const PlanarRegion& charged,
@@ -204,7 +209,7 @@ inline std::vector<Minimum> find_minima(const PlanarRegion& region, const Planar
     --remaining;
     Vector2 start;
     if (!inward_point(region, samples[k], options.start_depth, unit, &start)) continue;
-    const Descent d = descend(region, field, start, options.tolerance, options.max_iterations, near);
+    const Descent d = descend(region, field, start, rule_of(options), near);
     ++result->samples;
     result->iterations += d.iterations;
     const Index known = d.joined != kNone ? d.joined : near(d.position);
@@ -232,13 +237,36 @@ inline SkeletalPoint by_closed_form(const PlanarRegion& region, const SkeletalPo
   result.stop = winner.stop;
   if (screened) {
     const auto field = [&](const Vector2& p) { return repulsive_field(region, p); };
-    const Descent d = descend(region, field, winner.position, options.tolerance, options.max_iterations,
-                              [](const Vector2&) { return kNone; });
+    const Descent d = descend(region, field, winner.position, rule_of(options), none_near);
     result.position = d.position;
     result.iterations += d.iterations;
     result.stop = d.converged ? SkeletalPointStop::kConverged : SkeletalPointStop::kIterations;
   }
   return result;
+}
+
+inline SkeletalPoint by_nearest_valley(const PlanarRegion& region, const SkeletalPointOptions& options) {
+  constexpr double kFlat = 0.1;
+  const auto field = [&](const Vector2& p) { return repulsive_field(region, p); };
+  Vector2 start;
+  if (!inward_point(region, region.sample(0, 1).front(), options.start_depth, region.perimeter(), &start))
+    return by_closed_form(region, options);
+  DescentRule rule = rule_of(options);
+  rule.flat = kFlat;
+  const Descent d = descend(region, field, start, rule, none_near);
+  SkeletalPoint result;
+  result.position = d.position;
+  result.iterations = d.iterations;
+  result.samples = result.votes = result.minima = 1;
+  result.stop = d.converged ? SkeletalPointStop::kConverged : SkeletalPointStop::kIterations;
+  return result;
+}
+
+// The fields of filled regions have no wall at the contour: where the region is bent or holed they may vanish
+// at its edge or pull through it.
+inline bool central(const PlanarRegion& region, const Vector2& p) {
+  constexpr double kLeastDepth = 0.2;  // a disc's centre has 1, the middle of a long strip 0.5
+  return region.distance(p) >= kLeastDepth * region.mean_width();
 }
 
 inline SkeletalPoint by_closed_form_instead(const PlanarRegion& region, const SkeletalPointOptions& options) {
@@ -259,10 +287,8 @@ inline SkeletalPoint by_area_field(const PlanarRegion& region, const SkeletalPoi
   SkeletalPoint result = field_start(region);
   if (result.stop == SkeletalPointStop::kDegenerate) return result;
   const auto field = [&](const Vector2& p) { return area_field(region, p); };
-  const Descent d = descend(region, field, result.position, options.tolerance, options.max_iterations,
-                            [](const Vector2&) { return kNone; });
-  // The field has no wall at the contour and may pull through it where the region is bent.
-  if (!d.converged) return by_closed_form_instead(region, options);
+  const Descent d = descend(region, field, result.position, rule_of(options), none_near);
+  if (!d.converged || !central(region, d.position)) return by_closed_form_instead(region, options);
   result.position = d.position;
   result.iterations = d.iterations;
   result.samples = result.votes = result.minima = 1;
@@ -293,7 +319,8 @@ inline SkeletalPoint by_visible_field(const PlanarRegion& region, const Skeletal
       share *= 0.5;
     }
   }
-  return result.stop == SkeletalPointStop::kConverged ? result : by_closed_form_instead(region, options);
+  const bool good = result.stop == SkeletalPointStop::kConverged && central(region, result.position);
+  return good ? result : by_closed_form_instead(region, options);
 }
 
 inline void require(bool good, const char* option, const char* range) {
@@ -336,6 +363,8 @@ inline SkeletalPoint find_skeletal_point(const PlanarRegion& region, const Skele
       return detail::slice_centre::by_area_field(region, options);
     case SkeletalPointMethod::kVisibleField:
       return detail::slice_centre::by_visible_field(region, options);
+    case SkeletalPointMethod::kNearestValley:
+      return detail::slice_centre::by_nearest_valley(region, options);
     default:
       return detail::slice_centre::by_closed_form(region, options);
   }

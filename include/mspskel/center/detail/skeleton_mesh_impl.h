@@ -16,16 +16,21 @@ inline VertexPoint point_of_slice(const SliceTracer& tracer, const SkeletonMeshO
                                   const BoundingVolumeHierarchy* solid, SliceRegion& slice) {
   VertexPoint result;
   flatten_slice(tracer.surface(), slice);
-  if (options.holes == HoleSearch::kAll && slice.region.valid())
+  const auto find_with_holes = [&] {
     result.holed = add_hole_contours(tracer, *solid, slice) > 0;
+    if (!result.holed) return;
+    SkeletalPointOptions holed = options.point;
+    holed.method = options.method_with_holes;
+    const Index before = result.point.iterations;
+    result.point = find_skeletal_point(slice.region, holed);
+    result.point.iterations += before;
+  };
+  if (options.holes == HoleSearch::kAll && slice.region.valid()) find_with_holes();
+  if (result.holed) return result;
   result.point = find_skeletal_point(slice.region, options.point);
   if (options.holes == HoleSearch::kProbe && slice.region.valid() &&
-      may_have_holes(slice, *solid, result.point.position) && add_hole_contours(tracer, *solid, slice) > 0) {
-    const Index before = result.point.iterations;
-    result.point = find_skeletal_point(slice.region, options.point);
-    result.point.iterations += before;
-    result.holed = true;
-  }
+      may_have_holes(slice, *solid, result.point.position))
+    find_with_holes();
   return result;
 }
 
