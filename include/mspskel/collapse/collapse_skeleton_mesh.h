@@ -5,14 +5,13 @@
 #include <utility>
 #include <vector>
 
+#include "mspskel/center/skeleton_mesh.h"
 #include "mspskel/collapse/skeleton_decimater.h"
 
 namespace mspskel {
 
-// One merging set a vertex. Mesh is SkeletonMesh (center/skeleton_mesh.h) or anything else with its arrays
-// position, perimeter, normal, error, area and valid, one entry a vertex each.
-template <class Mesh>
-std::vector<MergingSet> make_merging_sets(const Mesh& mesh) {
+// One merging set a vertex.
+inline std::vector<MergingSet> make_merging_sets(const SkeletonMesh& mesh) {
   std::vector<MergingSet> sets;
   sets.reserve(mesh.position.size());
   for (std::size_t v = 0; v < mesh.position.size(); ++v)
@@ -26,11 +25,10 @@ std::vector<MergingSet> make_merging_sets(const Mesh& mesh) {
 // null-homologous and goes. With labels and keep_topology, b0 of the result is the surface's and b1 is the
 // labels' rank. Throws UsageError for options out of range or arrays of the wrong length, Cancelled. Cost:
 // O(V log V).
-template <class Mesh>
-CollapsedSkeleton collapse_skeleton_mesh(const SurfaceSnapshot& surface, const Mesh& mesh,
-                                         const std::vector<CocycleLabel>& labels = {},
-                                         const CollapseOptions& options = {},
-                                         const Execution& execution = {}) {
+inline CollapsedSkeleton collapse_skeleton_mesh(const SurfaceSnapshot& surface, const SkeletonMesh& mesh,
+                                                const std::vector<CocycleLabel>& labels = {},
+                                                const CollapseOptions& options = {},
+                                                const Execution& execution = {}) {
   if (static_cast<Index>(mesh.position.size()) != surface.vertex_count())
     throw UsageError("skeleton mesh: must have one point for each of the surface's " +
                      std::to_string(surface.vertex_count()) + " vertices");
