@@ -1,0 +1,98 @@
+#include "mspskel/io/read_mesh.h"
+
+#include <optional>
+
+#include "mesh_parsers.h"
+#include "mspskel/base/error.h"
+#include "mspskel/mesh/build_mesh.h"
+#include "read_bytes.h"
+
+namespace mspskel {
+namespace {
+
+using detail::starts_ignoring_case;
+
+std::optional<MeshFormat> format_of_extension(const std::string& extension) {
+  if (extension == "off") return MeshFormat::kOff;
+  if (extension == "obj") return MeshFormat::kObj;
+  if (extension == "ply") return MeshFormat::kPly;
+  if (extension == "stl") return MeshFormat::kStl;
+  return std::nullopt;
+}
+
+bool is_off_keyword(std::string_view word) {
+  word = word.substr(0, word.find_first_of(" \t\r\n0123456789"));
+  return word.size() >= 3 && word.size() <= 8 &&
+         detail::equals_ignoring_case(word.substr(word.size() - 3), "off");
+}
+bool has_obj_record(std::string_view bytes) {
+  for (std::size_t start = 0; start < bytes.size();) {
+    const std::string_view line = bytes.substr(start, bytes.find_first_of("\r\n", start) - start);
+    if (line.substr(0, 2) == "v " || line.substr(0, 2) == "v\t") return true;
+    start += line.size() + 1;
+  }
+  return false;
+}
+bool is_binary_stl(std::string_view bytes) {
+  if (bytes.size() < 84) return false;
+  std::uint64_t count = 0;
+  for (int i = 3; i >= 0; --i)
+    count = 256 * count + static_cast<unsigned char>(bytes[static_cast<std::size_t>(80 + i)]);
+  return bytes.size() == 84 + 50 * count;
+}
+
+std::optional<MeshFormat> format_of_content(std::string_view bytes) {
+  if (bytes.substr(0, 3) == "ply" && bytes.find_first_of("\r\n") == 3) return MeshFormat::kPly;
+  if (is_binary_stl(bytes)) return MeshFormat::kStl;
+  std::string_view text = bytes.substr(bytes.substr(0, 3) == "\xEF\xBB\xBF" ? 3 : 0);
+  for (;;) {  // blank lines and comments before the first word
+    text.remove_prefix(std::min(text.size(), text.find_first_not_of(" \t\r\n")));
+    if (text.empty() || text[0] != '#') break;
+    text.remove_prefix(std::min(text.size(), text.find_first_of("\r\n")));
+  }
+  if (is_off_keyword(text.substr(0, 16))) return MeshFormat::kOff;
+  if (starts_ignoring_case(text, "solid")) return MeshFormat::kStl;
+  if (has_obj_record(text)) return MeshFormat::kObj;
+  return std::nullopt;
+}
+
+const char* name_of(MeshFormat format) {
+  static constexpr const char* kNames[] = {"OFF", "OBJ", "PLY", "STL"};
+  return kNames[static_cast<int>(format)];
+}
+
+}  // namespace
+
+PolygonSoup read_polygon_soup(std::string_view bytes, MeshFormat format) {
+  switch (format) {
+    case MeshFormat::kOff:
+      return detail::parse_off(bytes);
+    case MeshFormat::kObj:
+      return detail::parse_obj(bytes);
+    case MeshFormat::kPly:
+      return detail::parse_ply(bytes);
+    default:
+      return detail::parse_stl(bytes);
+  }
+}
+
+PolygonSoup read_polygon_soup(const std::string& path) {
+  const std::string bytes = detail::read_bytes(path);
+  const std::string name = path == "-" ? "standard input" : path;
+  const auto by_content = format_of_content(bytes);
+  const auto by_extension = path == "-" ? std::nullopt : format_of_extension(detail::extension_of(path));
+  if (!by_extension && !by_content)
+    throw ReadError(name + ": neither the extension nor the content is that of OFF, OBJ, PLY or STL");
+  const MeshFormat format = by_extension ? *by_extension : *by_content;
+  try {
+    return read_polygon_soup(bytes, format);
+  } catch (const ReadError& error) {
+    const bool misnamed = by_content && *by_content != format;
+    throw ReadError(name + ": " + error.what() +
+                    (misnamed ? std::string(" (its content looks like ") + name_of(*by_content) + ")" : ""));
+  }
+}
+
+DefaultMesh read_mesh(const std::string& path) { return build_mesh(read_polygon_soup(path)); }
+
+}  // namespace mspskel
