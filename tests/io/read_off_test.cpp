@@ -105,19 +105,19 @@ TEST_CASE("OFF BINARY: big-endian integers and floats") {
        {3u, 0u, 2u, 1u, 0u, 3u, 0u, 1u, 3u, 0u, 3u, 1u, 2u, 3u, 1u, one, 3u, 2u, 0u, 3u, 0u})
     word(w);
   check_tetrahedron(off(bytes));
-  check_refused(bytes.substr(0, bytes.size() - 6), "byte ", "the file ends");
+  check_refused(bytes.substr(0, bytes.size() - 6), "byte ", "only 10 bytes follow");
   bytes[12] = 127;
   check_refused(bytes, "byte ", "number of vertices");
 }
 
 TEST_CASE("OFF defects are named with their line") {
-  check_refused("OFF\n4 4\n", "line 3", "number of edges");
+  check_refused("OFF\n0 0\n", "line 3", "number of edges");
   check_refused("PLY\n4 4\n", "line 1", "keyword OFF");
   check_refused("OFF\n-4 4 0\n", "line 2", "number of vertices");
   check_refused("OFF\n# c\n400000000 4 0\n" + kPoints, "line 3", "only");
   check_refused("OFF\n4 99999999999999999999 0\n" + kPoints, "line 2", "out of range");
   check_refused("OFF\n4 4 0\n0 0 0\n1 0 zero\n0 1 0\n0 0 1\n" + kFaces, "line 4", "'zero'");
-  check_refused("OFF\r\n4 4 0\r\n0 0 0\r\n1 0 nan\r\n", "line 4", "not finite");
+  check_refused("OFF\r\n2 0 0\r\n0 0 0\r\n1 0 nan\r\n", "line 4", "not finite");
   check_refused("OFF\n1 0 0\n1 0 inf", "line 3", "not finite");
   check_refused("OFF\n1 0 0\n1 0 1e999", "line 3", "not finite");
   check_refused("OFF\n1 0 0\n1 0 1,5", "line 3", "'1,5'");
