@@ -211,22 +211,7 @@ TEST_CASE("two handles that almost touch stay two") {
 }
 
 TEST_CASE("the torus with seven vertices") {
-  // Császár's polyhedron: every two of its vertices are joined by an edge.
-  const SurfaceSnapshot s = make_snapshot(from_triangles(
-      {{3, -3, 0}, {3, 3, 1}, {1, 2, 3}, {-1, -2, 3}, {-3, -3, 1}, {-3, 3, 0}, {0, 0, 15}}, {{0, 1, 3},
-                                                                                             {1, 2, 4},
-                                                                                             {2, 3, 5},
-                                                                                             {3, 4, 6},
-                                                                                             {4, 5, 0},
-                                                                                             {5, 6, 1},
-                                                                                             {6, 0, 2},
-                                                                                             {0, 3, 2},
-                                                                                             {1, 4, 3},
-                                                                                             {2, 5, 4},
-                                                                                             {3, 6, 5},
-                                                                                             {4, 0, 6},
-                                                                                             {5, 1, 0},
-                                                                                             {6, 2, 1}}));
+  const SurfaceSnapshot s = snapshot_of(csaszar_torus());
   REQUIRE(s.face_count() == 14);
   check_sources_agree(s, 1);
 }

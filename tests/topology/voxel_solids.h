@@ -125,6 +125,17 @@ inline std::set<Cell> random_lattice(int n, double share, Random& random) {
   return cells;
 }
 
+// Császár's polyhedron: a torus where every two of its seven vertices are joined by an edge.
+inline PolygonSoup csaszar_torus() {
+  PolygonSoup soup;
+  soup.points = {{3, -3, 0}, {3, 3, 1}, {1, 2, 3}, {-1, -2, 3}, {-3, -3, 1}, {-3, 3, 0}, {0, 0, 15}};
+  for (Index i = 0; i < 7; ++i) {
+    soup.add_triangle(i, (i + 1) % 7, (i + 3) % 7);
+    soup.add_triangle(i, (i + 3) % 7, (i + 2) % 7);
+  }
+  return soup;
+}
+
 inline SurfaceSnapshot snapshot_of(const PolygonSoup& soup) { return make_snapshot(to_mesh(soup)); }
 // Voxel surfaces with jitter: no exact ties between heights.
 inline SurfaceSnapshot snapshot_of(const VoxelSolid& solid, int fine, double jitter = 0.1,

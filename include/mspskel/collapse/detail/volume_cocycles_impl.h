@@ -47,7 +47,8 @@ class CocycleSearch {
   void try_slices(std::vector<SliceCandidate> candidates, bool only_on_loops);
   void try_plane(Component& component, Index vertex, const Vector3& normal);
   bool independent_contour(Component& component, Index vertex, const Vector3& normal);
-  std::vector<SliceCandidate> planes_across_loops(const Component& component) const;
+  std::vector<SliceCandidate> planes_across_loops(const Component& component, double angle) const;
+  void try_own_planes();
   void try_holed_regions(Component& component);
   void try_linking(Component& component);
   void complete(Component& component);
@@ -212,8 +213,10 @@ inline void CocycleSearch::try_slices(std::vector<SliceCandidate> candidates, bo
   }
 }
 
-// At even steps along each loop the plane that holds the surface normal and lies across the loop.
-inline std::vector<SliceCandidate> CocycleSearch::planes_across_loops(const Component& component) const {
+// At even steps along each loop a plane that holds the surface normal and lies across the loop, turned round
+// the surface normal by the given angle.
+inline std::vector<SliceCandidate> CocycleSearch::planes_across_loops(const Component& component,
+                                                                      double angle) const {
   std::vector<SliceCandidate> candidates;
   for (const std::vector<Index>& loop : component.generators.loop) {
     const std::size_t n = loop.size(), reach = std::max<std::size_t>(1, n / 12);
@@ -222,13 +225,27 @@ inline std::vector<SliceCandidate> CocycleSearch::planes_across_loops(const Comp
     for (std::size_t k = 0; k < planes; ++k) {
       const std::size_t i = k * n / planes;
       const Index v = surface_.origin[loop[i]];
+      const Vector3& axis = surface_.normal[v];
       Vector3 across = at(i + reach) - at(i + n - reach);
-      across -= across.dot(surface_.normal[v]) * surface_.normal[v];
+      across -= across.dot(axis) * axis;
       if (across.norm() < 1e-9) continue;
-      candidates.push_back({v, across.normalized(), 0.0});
+      candidates.push_back({v, Eigen::AngleAxisd(angle, axis) * across.normalized(), 0.0});
     }
   }
   return candidates;
+}
+
+inline void CocycleSearch::try_own_planes() {
+  constexpr int kAngles = 4;
+  for (int k = 0; k < kAngles && any_open(); ++k) {
+    std::vector<SliceCandidate> planes;
+    for (const Component& component : components_) {
+      if (!component.open()) continue;
+      const auto more = planes_across_loops(component, k * kPi / kAngles);
+      planes.insert(planes.end(), more.begin(), more.end());
+    }
+    try_slices(std::move(planes), true);
+  }
 }
 
 inline void CocycleSearch::try_holed_regions(Component& component) {
@@ -296,14 +313,7 @@ inline VolumeCocycles CocycleSearch::run(std::vector<SliceCandidate> candidates)
   if (options_.use_discs || options_.use_holed_regions) {
     try_slices(candidates, true);
     report_progress(progress_, "cocycles", 0.4);
-    std::vector<SliceCandidate> own;
-    for (const Component& component : components_)
-      if (component.open()) {
-        const auto planes = planes_across_loops(component);
-        own.insert(own.end(), planes.begin(), planes.end());
-      }
-    for (SliceCandidate& c : own) c.perimeter = 0;
-    try_slices(std::move(own), true);
+    try_own_planes();
     if (any_open()) try_slices(std::move(candidates), false);
   }
   report_progress(progress_, "cocycles", 0.7);

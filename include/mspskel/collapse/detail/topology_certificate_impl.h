@@ -1,0 +1,286 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "mspskel/collapse/complex_topology.h"
+#include "mspskel/collapse/detail/flat_regions.h"
+#include "mspskel/collapse/detail/linking_cocycles.h"
+#include "mspskel/mesh/shell_nesting.h"
+
+namespace mspskel {
+namespace detail {
+
+inline void check_graph(const SurfaceSnapshot& surface, const PolylineGraph& graph) {
+  const auto n = static_cast<Index>(graph.position.size());
+  for (const auto& edge : graph.edges)
+    for (const Index v : edge)
+      if (v < 0 || v >= n) throw UsageError("an edge of the skeleton names node " + std::to_string(v));
+  if (!graph.component.empty() && graph.component.size() != graph.position.size())
+    throw UsageError("the skeleton's components must be given for all nodes or none");
+  for (const Index c : graph.component)
+    if (c < kNone || c >= surface.component_count)
+      throw UsageError("a node of the skeleton names component " + std::to_string(c));
+}
+
+// Per node the smallest node of its piece.
+inline std::vector<Index> pieces(const PolylineGraph& graph) {
+  generators::UnionFind forest(static_cast<Index>(graph.position.size()));
+  for (const auto& [a, b] : graph.edges) {
+    const Index u = forest.find(a), v = forest.find(b);
+    forest.unite(std::min(u, v), std::max(u, v));
+  }
+  std::vector<Index> piece(graph.position.size());
+  for (std::size_t v = 0; v < piece.size(); ++v) piece[v] = forest.find(static_cast<Index>(v));
+  return piece;
+}
+
+// Signed crossings of each edge with a flat region: +1 from the plane's negative to its positive side.
+inline void add_region_crossings(const VolumeCocycle& cocycle, Index row, const PolylineGraph& graph,
+                                 std::vector<CocycleLabel>& label) {
+  const PlaneFrame frame(cocycle.plane.normal);
+  std::vector<std::vector<Eigen::Vector2d>> polygons;
+  for (const Contour& contour : cocycle.contours) {
+    polygons.emplace_back();
+    for (const Vector3& p : contour.point) polygons.back().push_back(frame(p));
+  }
+  for (std::size_t e = 0; e < graph.edges.size(); ++e) {
+    const Vector3 &a = graph.position[graph.edges[e][0]], &b = graph.position[graph.edges[e][1]];
+    const double from = cocycle.plane.signed_distance(a), to = cocycle.plane.signed_distance(b);
+    if ((from >= 0) == (to >= 0)) continue;
+    const Eigen::Vector2d x = frame(a + from / (from - to) * (b - a));
+    bool inside = false;
+    for (const auto& polygon : polygons) inside = inside != inside_polygon(polygon, x);
+    if (inside) label[e] += CocycleLabel::unit(row, to >= 0 ? 1 : -1);
+  }
+}
+
+// Crossings of each edge with a loop outside the solid, seen along some direction: above as component `row`,
+// below, negated, as component `row + rank`. Round a cycle both sums are the linking number. False if no
+// direction gives a clear view.
+inline bool add_loop_crossings(const VolumeCocycle& cocycle, Index row, Index rank,
+                               const PolylineGraph& graph, std::vector<CocycleLabel>& label) {
+  constexpr int kDirections = 12;
+  for (int attempt = 0; attempt < kDirections; ++attempt) {
+    const View view(view_direction(attempt));
+    std::vector<Vector3> loop, node;
+    for (const Vector3& p : cocycle.loop) loop.push_back(view(p));
+    for (const Vector3& p : graph.position) node.push_back(view(p));
+    std::vector<CrossingCount> count(graph.edges.size());
+    bool clear = true;
+    for (std::size_t e = 0; e < graph.edges.size() && clear; ++e)
+      for (std::size_t i = 0; i < loop.size() && clear; ++i)
+        clear = count_crossing(loop[i], loop[i + 1 == loop.size() ? 0 : i + 1], node[graph.edges[e][0]],
+                               node[graph.edges[e][1]], count[e]);
+    if (!clear) continue;
+    for (std::size_t e = 0; e < graph.edges.size(); ++e) {
+      label[e] += CocycleLabel::unit(row, static_cast<std::int32_t>(count[e].above));
+      label[e] += CocycleLabel::unit(row + rank, static_cast<std::int32_t>(-count[e].below));
+    }
+    return true;
+  }
+  return false;
+}
+
+struct CycleCrossings {
+  Index cycles = 0, rank = 0;
+  bool clear = true;  // false: rounding left a doubt
+};
+
+// A piece counts for the cocycles of its own component only: a disc of an outer shell reaches through the
+// shells inside it.
+inline CycleCrossings cross_cycles(const VolumeCocycles& cocycles, const PolylineGraph& graph,
+                                   const std::vector<Index>& component) {
+  CycleCrossings result;
+  std::vector<CocycleLabel> label(graph.edges.size());
+  for (Index row = 0; row < cocycles.rank; ++row) {
+    const VolumeCocycle& cocycle = cocycles.cocycle[row];
+    if (cocycle.source == CocycleSource::kDisc || cocycle.source == CocycleSource::kHoledRegion)
+      add_region_crossings(cocycle, row, graph, label);
+    else if (cocycle.source == CocycleSource::kLinking)
+      result.clear = add_loop_crossings(cocycle, row, cocycles.rank, graph, label) && result.clear;
+  }
+  LabelledForest forest(static_cast<Index>(graph.position.size()));
+  LabelRank rank;
+  CocycleLabel loop;
+  for (std::size_t e = 0; e < graph.edges.size(); ++e) {
+    if (forest.join(graph.edges[e][0], graph.edges[e][1], label[e], loop)) continue;
+    ++result.cycles;
+    CocycleLabel crossings;
+    for (Index row = 0; row < cocycles.rank; ++row) {
+      const VolumeCocycle& cocycle = cocycles.cocycle[row];
+      if (cocycle.component != component[graph.edges[e][0]]) continue;
+      crossings += CocycleLabel::unit(row, loop[row]);
+      if (cocycle.source == CocycleSource::kLinking && loop[row] != loop[row + cocycles.rank])
+        result.clear = false;
+    }
+    rank.insert(crossings);
+  }
+  result.rank = rank.rank();
+  return result;
+}
+
+// The hierarchy that says what is inside for a component: the whole surface's where no component lies inside
+// another (a segment that starts inside one component and meets no surface stays there), else its own.
+class SolidHierarchies {
+ public:
+  SolidHierarchies(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& whole, bool nested)
+      : whole_(whole) {
+    if (!nested) return;
+    for (const ComponentElements& component : component_elements(surface)) {
+      SurfaceSnapshot part;
+      part.position = surface.position;
+      for (const Index f : component.faces)
+        for (Index h = 3 * f; h < 3 * f + 3; ++h) part.origin.push_back(surface.origin[h]);
+      own_.push_back(std::make_unique<BoundingVolumeHierarchy>(part));
+    }
+  }
+  const BoundingVolumeHierarchy& operator()(Index component) const {
+    return own_.empty() || component == kNone ? whole_ : *own_[component];
+  }
+
+ private:
+  const BoundingVolumeHierarchy& whole_;
+  std::vector<std::unique_ptr<BoundingVolumeHierarchy>> own_;
+};
+
+// Per node; where it is not given, the component nearest to the smallest node of its piece: the way there
+// stays inside, if the piece is inside.
+inline std::vector<Index> components_of_pieces(const SurfaceSnapshot& surface,
+                                               const BoundingVolumeHierarchy& hierarchy,
+                                               const PolylineGraph& graph, const std::vector<Index>& piece) {
+  if (!graph.component.empty()) return graph.component;
+  std::vector<Index> component(piece.size(), kNone);
+  for (std::size_t v = 0; v < piece.size(); ++v) {
+    if (piece[v] == static_cast<Index>(v)) {
+      const Index face = hierarchy.closest(graph.position[v]).face;
+      component[v] = face == kNone ? kNone : surface.component[surface.origin[3 * face]];
+    } else {
+      component[v] = component[static_cast<std::size_t>(piece[v])];
+    }
+  }
+  return component;
+}
+
+// One piece for each component and each piece within one component.
+inline bool pieces_match_components(const SurfaceSnapshot& surface, const std::vector<Index>& piece,
+                                    const std::vector<Index>& component) {
+  std::vector<Index> piece_of(surface.component_count, kNone);
+  for (std::size_t v = 0; v < piece.size(); ++v) {
+    if (component[v] == kNone) return false;
+    Index& p = piece_of[component[v]];
+    if (p != kNone && p != piece[v]) return false;
+    p = piece[v];
+    if (component[v] != component[static_cast<std::size_t>(piece[v])]) return false;
+  }
+  return std::find(piece_of.begin(), piece_of.end(), kNone) == piece_of.end();
+}
+
+// Fills in the certificate's share inside and count of edges not inside. Pieces without edges count by their
+// nodes.
+inline void measure_inside(const SolidHierarchies& solid, const PolylineGraph& graph,
+                           const std::vector<Index>& component, TopologyCertificate& certificate) {
+  constexpr int kSamples = 16;  // on an edge that meets the surface
+  double total = 0, inside = 0;
+  std::vector<bool> has_edge(graph.position.size(), false);
+  for (const auto& [a, b] : graph.edges) {
+    has_edge[a] = has_edge[b] = true;
+    const BoundingVolumeHierarchy& hierarchy = solid(component[a]);
+    const Vector3 &p = graph.position[a], &q = graph.position[b];
+    const double length = (q - p).norm();
+    total += length;
+    if (!hierarchy.segment_crosses(p, q) && hierarchy.inside(p) && hierarchy.inside(q)) {
+      inside += length;
+      continue;
+    }
+    ++certificate.edges_not_inside;
+    for (int k = 0; k < kSamples; ++k)
+      if (hierarchy.inside(p + (k + 0.5) / kSamples * (q - p))) inside += length / kSamples;
+  }
+  bool lone_outside = false;
+  for (std::size_t v = 0; v < has_edge.size(); ++v)
+    if (!has_edge[v] && !solid(component[v]).inside(graph.position[v])) lone_outside = true;
+  if (lone_outside) ++certificate.edges_not_inside;
+  certificate.inside = total > 0 ? inside / total : (lone_outside ? 0.0 : 1.0);
+}
+
+// What stands in the way of a proof, most serious first; empty if nothing does.
+inline std::string obstacle(const CertificateOptions& options, const TopologyCertificate& certificate,
+                            const CycleCrossings& crossings, bool matched, bool known_shells) {
+  if (options.self_intersections == SelfIntersections::kPresent) return "the surface intersects itself";
+  if (options.self_intersections == SelfIntersections::kUnknown)
+    return "it is not known whether the surface intersects itself";
+  if (certificate.completions > 0) return "not all cocycles come from the solid";
+  if (!known_shells) return "components lie inside others and the map from surface to skeleton is not given";
+  if (certificate.edges_not_inside > 0)
+    return std::to_string(certificate.edges_not_inside) + " edges are not inside the solid from end to end";
+  if (!matched) return "the pieces do not lie one in each component";
+  if (!crossings.clear) return "rounding hides a linking number";
+  return {};
+}
+
+}  // namespace detail
+
+inline std::vector<Index> component_of_nodes(const SurfaceSnapshot& surface, Index node_count,
+                                             const std::vector<Index>& node_of_vertex) {
+  std::vector<Index> component(node_count, kNone);
+  for (std::size_t v = 0; v < node_of_vertex.size(); ++v) {
+    const Index node = node_of_vertex[v];
+    if (node == kNone) continue;
+    if (node < 0 || node >= node_count || v >= surface.component.size())
+      throw UsageError("the surface map sends vertex " + std::to_string(v) + " to node " +
+                       std::to_string(node));
+    component[node] = surface.component[v];
+  }
+  return component;
+}
+
+inline TopologyCertificate certify_topology(const SurfaceSnapshot& surface, const VolumeCocycles& cocycles,
+                                            const BoundingVolumeHierarchy& hierarchy,
+                                            const PolylineGraph& graph, const CertificateOptions& options) {
+  detail::check_graph(surface, graph);
+  TopologyCertificate c;
+  const ShellNesting shells = nest_shells(surface);
+  c.components = surface.component_count;
+  c.nested_components = shells.nested_count();
+  c.genus = cocycles.genus;
+  c.total_genus = std::accumulate(c.genus.begin(), c.genus.end(), Index{0});
+  c.discs = cocycles.discs;
+  c.holed_regions = cocycles.holed_regions;
+  c.linking = cocycles.linking;
+  c.completions = cocycles.completions;
+  c.cocycle_rank = cocycles.rank;
+
+  const std::vector<Index> piece = detail::pieces(graph);
+  for (std::size_t v = 0; v < piece.size(); ++v) c.b0 += piece[v] == static_cast<Index>(v);
+  const bool nested = c.nested_components > 0, known_shells = !nested || !graph.component.empty();
+  const std::vector<Index> component = detail::components_of_pieces(surface, hierarchy, graph, piece);
+  const detail::CycleCrossings crossings = detail::cross_cycles(cocycles, graph, component);
+  c.b1 = crossings.cycles;
+  c.crossing_rank = crossings.rank;
+
+  const detail::SolidHierarchies solid(surface, hierarchy, nested && known_shells);
+  detail::measure_inside(solid, graph, component, c);
+  const bool matched = detail::pieces_match_components(surface, piece, component);
+
+  if (c.b0 != c.components) {
+    c.reason = "b0 is " + std::to_string(c.b0) + ", not " + std::to_string(c.components);
+  } else if (c.b1 != c.total_genus) {
+    c.reason = "b1 is " + std::to_string(c.b1) + ", not " + std::to_string(c.total_genus);
+  } else {
+    c.reason = detail::obstacle(options, c, crossings, matched, known_shells);
+    c.verdict = c.reason.empty() ? TopologyVerdict::kProved : TopologyVerdict::kKept;
+    if (c.reason.empty() && c.crossing_rank != c.total_genus) {
+      c.verdict = TopologyVerdict::kFailed;
+      c.reason = "the cycles cross the discs with rank " + std::to_string(c.crossing_rank) + ", not " +
+                 std::to_string(c.total_genus);
+    }
+  }
+  return c;
+}
+
+}  // namespace mspskel

@@ -1,0 +1,84 @@
+// The certificate: what shows, by geometry alone, that a finished skeleton has exactly the solid's handles.
+//
+// A graph inside the solid is a skeleton of the right topology if it has one piece in each component, as many
+// independent cycles as the surface has handles (b1 = genus), and if its cycles are independent in the solid.
+// The last is shown by crossings: each volume cocycle is "signed crossings with a disc" (or a flat region
+// with holes, or the linking number with a loop outside), so the matrix of cycles against cocycles has full
+// rank. Nothing of this looks at how the skeleton was made.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "mspskel/collapse/volume_cocycles.h"
+#include "mspskel/mesh/bounding_volume_hierarchy.h"
+
+namespace mspskel {
+
+// A skeleton as points and straight edges, normalised units. Parallel edges and loops are allowed.
+struct PolylineGraph {
+  std::vector<Vector3> position;
+  std::vector<std::array<Index, 2>> edges;
+  // Per node the component of the surface that it stands for. May be empty where no component lies inside
+  // another: then it is found from the positions.
+  std::vector<Index> component;
+};
+
+enum class TopologyVerdict {
+  kProved,  // every condition holds
+  kKept,    // b0 and b1 are right, but something stands in the way of the proof
+  kFailed,  // b0 or b1 is wrong, or the proof's conditions hold and the cycles depend on each other
+};
+
+// "proved", "kept", "failed".
+inline const char* to_string(TopologyVerdict verdict) {
+  return verdict == TopologyVerdict::kProved ? "proved"
+         : verdict == TopologyVerdict::kKept ? "kept"
+                                             : "failed";
+}
+
+enum class SelfIntersections { kAbsent, kPresent, kUnknown };
+
+struct CertificateOptions {
+  // Of the surface. Only kAbsent allows a proof.
+  SelfIntersections self_intersections = SelfIntersections::kUnknown;
+};
+
+struct TopologyCertificate {
+  TopologyVerdict verdict = TopologyVerdict::kFailed;
+  std::string reason;  // why it is not proved; empty if it is
+
+  // Of the surface.
+  Index components = 0, nested_components = 0;  // the latter lie inside others; each is a solid of its own
+  std::vector<Index> genus;                     // per component
+  Index total_genus = 0;
+
+  // What the cocycles come from, and how many are independent on the surface's loops.
+  Index discs = 0, holed_regions = 0, linking = 0, completions = 0;
+  Index cocycle_rank = 0;
+
+  // Of the skeleton.
+  Index b0 = 0, b1 = 0;
+  Index crossing_rank = 0;  // rank of the signed crossings of its cycles with the cocycles' regions
+  // Share of the length inside (of the component that each piece stands for, as a solid of its own); edges
+  // that are not inside from end to end.
+  double inside = 0.0;
+  Index edges_not_inside = 0;
+};
+
+// The component that each node stands for, from the map of the surface's vertices to nodes (kNone entries are
+// skipped). Throws UsageError for a node out of range.
+inline std::vector<Index> component_of_nodes(const SurfaceSnapshot& surface, Index node_count,
+                                             const std::vector<Index>& node_of_vertex);
+
+// `hierarchy` is that of the whole surface. Cost: O(edges · log faces + edges · cocycles + contours).
+// Throws UsageError for an edge that names no node, or a component that does not exist.
+inline TopologyCertificate certify_topology(const SurfaceSnapshot& surface, const VolumeCocycles& cocycles,
+                                            const BoundingVolumeHierarchy& hierarchy,
+                                            const PolylineGraph& graph,
+                                            const CertificateOptions& options = {});
+
+}  // namespace mspskel
+
+#include "mspskel/collapse/detail/topology_certificate_impl.h"
