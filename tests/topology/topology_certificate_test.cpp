@@ -11,8 +11,6 @@ using namespace mspskel::test;
 
 namespace {
 
-constexpr CertificateOptions kEmbedded{SelfIntersections::kAbsent};
-
 // The middles of the cells, joined across shared faces: the skeleton of a solid made of paths.
 PolylineGraph cell_graph(const SurfaceSnapshot& s, const std::set<Cell>& cells) {
   PolylineGraph graph;
@@ -31,8 +29,7 @@ PolylineGraph cell_graph(const SurfaceSnapshot& s, const std::set<Cell>& cells) 
 }
 
 TopologyCertificate certify(const SurfaceSnapshot& s, const PolylineGraph& graph,
-                            const CertificateOptions& options = kEmbedded,
-                            const CocycleOptions& cocycles = {}) {
+                            const CocycleOptions& cocycles = {}, const CertificateOptions& options = {}) {
   return certify_topology(s, compute_volume_cocycles(s, {}, cocycles), BoundingVolumeHierarchy(s), graph,
                           options);
 }
@@ -70,7 +67,7 @@ TEST_CASE("skeletons of solids made of paths are proved") {
     solid.add(cells);
     const SurfaceSnapshot s = snapshot_of(solid, 1, 0.1, static_cast<std::uint64_t>(round));
     for (const CocycleOptions& options : {CocycleOptions{}, linking_only()}) {
-      const TopologyCertificate c = certify(s, cell_graph(s, cells), kEmbedded, options);
+      const TopologyCertificate c = certify(s, cell_graph(s, cells), options);
       INFO(c.reason);
       CHECK(c.verdict == TopologyVerdict::kProved);
       CHECK(c.b1 == c.total_genus);
@@ -83,10 +80,9 @@ TEST_CASE("skeletons of solids made of paths are proved") {
 TEST_CASE("a loop round a knotted tunnel is proved, a loop beside it fails") {
   const SurfaceSnapshot s = snapshot_of(knotted_tunnel(2, 3), 1);
   for (const CocycleOptions& options : {CocycleOptions{}, linking_only()}) {
-    CHECK(certify(s, cell_graph(s, round_tunnel({1, 4, 0})), kEmbedded, options).verdict ==
-          TopologyVerdict::kProved);
+    CHECK(certify(s, cell_graph(s, round_tunnel({1, 4, 0})), options).verdict == TopologyVerdict::kProved);
     const std::set<Cell> beside{{9, 8, 3}, {9, 9, 3}, {8, 9, 3}, {8, 8, 3}};  // in the block's margin
-    const TopologyCertificate c = certify(s, cell_graph(s, beside), kEmbedded, options);
+    const TopologyCertificate c = certify(s, cell_graph(s, beside), options);
     CHECK(c.verdict == TopologyVerdict::kFailed);
     CHECK(c.b1 == 1);
     CHECK(c.crossing_rank == 0);
@@ -131,9 +127,14 @@ TEST_CASE("what is wrong is found and named") {
     CHECK(c.inside < 1.0);
     CHECK(c.edges_not_inside >= 1);
   }
-  SECTION("a surface that crosses itself, or may do so") {
-    CHECK(certify(s, right, {SelfIntersections::kPresent}).verdict == TopologyVerdict::kKept);
-    CHECK(certify(s, right, {SelfIntersections::kUnknown}).verdict == TopologyVerdict::kKept);
+  SECTION("a surface that crosses itself") {
+    const TopologyCertificate told = certify(s, right, {}, {true});
+    CHECK(told.verdict == TopologyVerdict::kKept);
+    CHECK(told.reason == "the surface intersects itself");
+    PolygonSoup soup = boundary(solid, 1);
+    for (Vector3& x : soup.points)
+      if (x.x() == 5 && x.y() == 5) x.x() = -2;
+    CHECK(certify(snapshot_of(soup), right).verdict == TopologyVerdict::kKept);
   }
   SECTION("an edge that names no node") {
     PolylineGraph graph = right;

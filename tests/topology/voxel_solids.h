@@ -136,6 +136,13 @@ inline PolygonSoup csaszar_torus() {
   return soup;
 }
 
+// The same surface with its faces turned the other way.
+inline PolygonSoup inside_out(PolygonSoup soup) {
+  for (std::size_t f = 0; f < soup.polygon_count(); ++f)
+    std::reverse(soup.corners.begin() + soup.begin[f], soup.corners.begin() + soup.begin[f + 1]);
+  return soup;
+}
+
 inline SurfaceSnapshot snapshot_of(const PolygonSoup& soup) { return make_snapshot(to_mesh(soup)); }
 // Voxel surfaces with jitter: no exact ties between heights.
 inline SurfaceSnapshot snapshot_of(const VoxelSolid& solid, int fine, double jitter = 0.1,

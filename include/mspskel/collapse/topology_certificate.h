@@ -8,6 +8,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,11 +39,9 @@ inline const char* to_string(TopologyVerdict verdict) {
                                              : "failed";
 }
 
-enum class SelfIntersections { kAbsent, kPresent, kUnknown };
-
 struct CertificateOptions {
-  // Of the surface. Only kAbsent allows a proof.
-  SelfIntersections self_intersections = SelfIntersections::kUnknown;
+  // Whether the surface crosses or touches itself, if that is known; otherwise it is tested here.
+  std::optional<bool> self_intersecting;
 };
 
 struct TopologyCertificate {
@@ -53,6 +52,7 @@ struct TopologyCertificate {
   Index components = 0, nested_components = 0;  // the latter lie inside others; each is a solid of its own
   std::vector<Index> genus;                     // per component
   Index total_genus = 0;
+  bool self_intersecting = false;
 
   // What the cocycles come from, and how many are independent on the surface's loops.
   Index discs = 0, holed_regions = 0, linking = 0, completions = 0;
@@ -72,7 +72,8 @@ struct TopologyCertificate {
 inline std::vector<Index> component_of_nodes(const SurfaceSnapshot& surface, Index node_count,
                                              const std::vector<Index>& node_of_vertex);
 
-// `hierarchy` is that of the whole surface. Cost: O(edges · log faces + edges · cocycles + contours).
+// `hierarchy` is that of the whole surface. Cost: O(faces + edges · (log faces + cocycles · crossings a
+// contour)), and the test for self-intersections, O(faces · log faces).
 // Throws UsageError for an edge that names no node, or a component that does not exist.
 inline TopologyCertificate certify_topology(const SurfaceSnapshot& surface, const VolumeCocycles& cocycles,
                                             const BoundingVolumeHierarchy& hierarchy,

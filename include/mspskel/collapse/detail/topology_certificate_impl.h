@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <memory>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -10,7 +9,8 @@
 #include "mspskel/collapse/complex_topology.h"
 #include "mspskel/collapse/detail/flat_regions.h"
 #include "mspskel/collapse/detail/linking_cocycles.h"
-#include "mspskel/mesh/shell_nesting.h"
+#include "mspskel/mesh/mesh_report.h"
+#include "mspskel/mesh/self_intersection.h"
 
 namespace mspskel {
 namespace detail {
@@ -131,21 +131,16 @@ class SolidHierarchies {
   SolidHierarchies(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& whole, bool nested)
       : whole_(whole) {
     if (!nested) return;
-    for (const ComponentElements& component : component_elements(surface)) {
-      SurfaceSnapshot part;
-      part.position = surface.position;
-      for (const Index f : component.faces)
-        for (Index h = 3 * f; h < 3 * f + 3; ++h) part.origin.push_back(surface.origin[h]);
-      own_.push_back(std::make_unique<BoundingVolumeHierarchy>(part));
-    }
+    for (const ComponentElements& component : component_elements(surface))
+      own_.emplace_back(surface, component.faces);
   }
   const BoundingVolumeHierarchy& operator()(Index component) const {
-    return own_.empty() || component == kNone ? whole_ : *own_[component];
+    return own_.empty() || component == kNone ? whole_ : own_[component];
   }
 
  private:
   const BoundingVolumeHierarchy& whole_;
-  std::vector<std::unique_ptr<BoundingVolumeHierarchy>> own_;
+  std::vector<BoundingVolumeHierarchy> own_;
 };
 
 // Per node; where it is not given, the component nearest to the smallest node of its piece: the way there
@@ -209,18 +204,32 @@ inline void measure_inside(const SolidHierarchies& solid, const PolylineGraph& g
 }
 
 // What stands in the way of a proof, most serious first; empty if nothing does.
-inline std::string obstacle(const CertificateOptions& options, const TopologyCertificate& certificate,
-                            const CycleCrossings& crossings, bool matched, bool known_shells) {
-  if (options.self_intersections == SelfIntersections::kPresent) return "the surface intersects itself";
-  if (options.self_intersections == SelfIntersections::kUnknown)
-    return "it is not known whether the surface intersects itself";
+inline std::string obstacle(const TopologyCertificate& certificate, bool clear, bool matched,
+                            bool known_shells) {
+  if (certificate.self_intersecting) return "the surface intersects itself";
   if (certificate.completions > 0) return "not all cocycles come from the solid";
   if (!known_shells) return "components lie inside others and the map from surface to skeleton is not given";
   if (certificate.edges_not_inside > 0)
     return std::to_string(certificate.edges_not_inside) + " edges are not inside the solid from end to end";
   if (!matched) return "the pieces do not lie one in each component";
-  if (!crossings.clear) return "rounding hides a linking number";
+  if (!clear) return "rounding hides a linking number";
   return {};
+}
+
+// Sets verdict and reason; `obstacle` as above.
+inline void judge(const std::string& obstacle, TopologyCertificate& c) {
+  const auto wrong = [&](const char* what, Index is, Index should_be) {
+    c.verdict = TopologyVerdict::kFailed;
+    c.reason = what + std::to_string(is) + ", not " + std::to_string(should_be);
+  };
+  c.verdict = obstacle.empty() ? TopologyVerdict::kProved : TopologyVerdict::kKept;
+  c.reason = obstacle;
+  if (c.b0 != c.components)
+    wrong("b0 is ", c.b0, c.components);
+  else if (c.b1 != c.total_genus)
+    wrong("b1 is ", c.b1, c.total_genus);
+  else if (obstacle.empty() && c.crossing_rank != c.total_genus)
+    wrong("the cycles cross the discs with rank ", c.crossing_rank, c.total_genus);
 }
 
 }  // namespace detail
@@ -244,9 +253,11 @@ inline TopologyCertificate certify_topology(const SurfaceSnapshot& surface, cons
                                             const PolylineGraph& graph, const CertificateOptions& options) {
   detail::check_graph(surface, graph);
   TopologyCertificate c;
-  const ShellNesting shells = nest_shells(surface);
   c.components = surface.component_count;
-  c.nested_components = shells.nested_count();
+  for (const ComponentReport& component : report_mesh(surface, hierarchy, {0}).components)
+    c.nested_components += component.depth > 0;
+  c.self_intersecting = options.self_intersecting ? *options.self_intersecting
+                                                  : count_self_intersections(surface, hierarchy, 1) > 0;
   c.genus = cocycles.genus;
   c.total_genus = std::accumulate(c.genus.begin(), c.genus.end(), Index{0});
   c.discs = cocycles.discs;
@@ -257,29 +268,16 @@ inline TopologyCertificate certify_topology(const SurfaceSnapshot& surface, cons
 
   const std::vector<Index> piece = detail::pieces(graph);
   for (std::size_t v = 0; v < piece.size(); ++v) c.b0 += piece[v] == static_cast<Index>(v);
-  const bool nested = c.nested_components > 0, known_shells = !nested || !graph.component.empty();
   const std::vector<Index> component = detail::components_of_pieces(surface, hierarchy, graph, piece);
   const detail::CycleCrossings crossings = detail::cross_cycles(cocycles, graph, component);
   c.b1 = crossings.cycles;
   c.crossing_rank = crossings.rank;
 
-  const detail::SolidHierarchies solid(surface, hierarchy, nested && known_shells);
-  detail::measure_inside(solid, graph, component, c);
+  const bool nested = c.nested_components > 0, known_shells = !nested || !graph.component.empty();
+  detail::measure_inside(detail::SolidHierarchies(surface, hierarchy, nested && known_shells), graph,
+                         component, c);
   const bool matched = detail::pieces_match_components(surface, piece, component);
-
-  if (c.b0 != c.components) {
-    c.reason = "b0 is " + std::to_string(c.b0) + ", not " + std::to_string(c.components);
-  } else if (c.b1 != c.total_genus) {
-    c.reason = "b1 is " + std::to_string(c.b1) + ", not " + std::to_string(c.total_genus);
-  } else {
-    c.reason = detail::obstacle(options, c, crossings, matched, known_shells);
-    c.verdict = c.reason.empty() ? TopologyVerdict::kProved : TopologyVerdict::kKept;
-    if (c.reason.empty() && c.crossing_rank != c.total_genus) {
-      c.verdict = TopologyVerdict::kFailed;
-      c.reason = "the cycles cross the discs with rank " + std::to_string(c.crossing_rank) + ", not " +
-                 std::to_string(c.total_genus);
-    }
-  }
+  detail::judge(detail::obstacle(c, crossings.clear, matched, known_shells), c);
   return c;
 }
 
