@@ -7,7 +7,7 @@
 
 #include "mspskel/base/types.h"
 #include "mspskel/mesh/detail/box_tree.h"
-#include "mspskel/mesh/detail/triangle_queries.h"
+#include "mspskel/mesh/detail/triangle_block.h"
 #include "mspskel/mesh/surface_snapshot.h"
 
 namespace mspskel {
@@ -38,7 +38,7 @@ class BoundingVolumeHierarchy {
   // Over some of the faces: queries see only these, and still name them as the snapshot does.
   BoundingVolumeHierarchy(const SurfaceSnapshot& snapshot, const std::vector<Index>& faces);
 
-  Index face_count() const { return static_cast<Index>(triangles_.size()); }
+  Index face_count() const { return face_count_; }
 
   // The surface point nearest to p, if it is nearer than `bound`. A tight bound, such as a neighbour's answer
   // plus the way to the neighbour, saves time.
@@ -78,10 +78,16 @@ class BoundingVolumeHierarchy {
 
  private:
   bool in_winding(const Vector3& p) const;
+  // Calls visit(slot) for the triangles near the ray, roughly front to back, until it returns false.
+  template <class Visit>
+  void along_ray(const Vector3& origin, const Vector3& unit, const double& bound, Visit visit) const;
 
   detail::BoxTree tree_;
-  std::vector<detail::Triangle> triangles_;  // in the order of the leaves
-  std::vector<Index> face_;                  // of each triangle
+  double reach_ = 0.0;  // bounds every coordinate
+  Index face_count_ = 0;
+  std::vector<detail::Triangle> triangles_;    // per slot of the leaves, four a leaf
+  std::vector<Index> face_;                    // per slot, kNone where it is empty
+  std::vector<detail::TriangleBlock> blocks_;  // per leaf
 };
 
 }  // namespace mspskel

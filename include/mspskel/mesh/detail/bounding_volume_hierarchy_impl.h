@@ -33,33 +33,56 @@ inline BoundingVolumeHierarchy::BoundingVolumeHierarchy(const SurfaceSnapshot& s
   std::vector<detail::PrimitiveBox> boxes;
   boxes.reserve(faces.size());
   for (const Index f : faces) boxes.push_back(detail::box_of(triangle(f), f));
-  double reach = 0.0;
-  for (const Vector3& p : s.position) reach = std::max(reach, p.cwiseAbs().maxCoeff());
-  tree_.build(boxes, reach);
-  triangles_.reserve(boxes.size());
-  face_.reserve(boxes.size());
-  for (const detail::PrimitiveBox& box : boxes) {
-    face_.push_back(box.primitive);
-    triangles_.push_back(triangle(box.primitive));
+  for (const Vector3& p : s.position) reach_ = std::max(reach_, p.cwiseAbs().maxCoeff());
+  face_ = tree_.build(boxes, reach_);
+  face_count_ = static_cast<Index>(faces.size());
+  triangles_.resize(face_.size());
+  blocks_.reserve(face_.size() / detail::BoxTree::kLeafSize);
+  for (std::size_t leaf = 0; leaf < face_.size(); leaf += detail::BoxTree::kLeafSize) {
+    Index count = 0;
+    for (; count < detail::BoxTree::kLeafSize && face_[leaf + count] != kNone; ++count)
+      triangles_[leaf + count] = triangle(face_[leaf + count]);
+    blocks_.emplace_back(&triangles_[leaf], count);
   }
 }
 
 inline ClosestPoint BoundingVolumeHierarchy::closest(const Vector3& p, double bound) const {
   ClosestPoint best;
   double square = bound * bound;
+  const detail::FilterPoint rough(p, reach_);
+  const double error = detail::TriangleBlock::distance_error(rough);
+  double limit = (bound + error) * (bound + error);
   tree_.by_distance(p, square, [&](Index first, Index count) {
-    for (Index i = first; i < first + count; ++i) {
-      const Vector3 q = detail::closest_on_triangle(p, triangles_[i]);
+    alignas(16) float around[4];
+    blocks_[first / detail::BoxTree::kLeafSize].squared_distances(rough, around);
+    for (Index k = 0; k < count; ++k) {
+      if (static_cast<double>(around[k]) > limit) continue;
+      const Vector3 q = detail::closest_on_triangle(p, triangles_[first + k]);
       const double d = (q - p).squaredNorm();
-      if (d < square) {
-        square = d;
-        best.point = q;
-        best.face = face_[i];
-      }
+      if (d >= square) continue;
+      square = d;
+      limit = (std::sqrt(d) + error) * (std::sqrt(d) + error);
+      best.point = q;
+      best.face = face_[first + k];
     }
   });
   if (best.face != kNone) best.distance = std::sqrt(square);
   return best;
+}
+
+template <class Visit>
+void BoundingVolumeHierarchy::along_ray(const Vector3& origin, const Vector3& unit, const double& bound,
+                                        Visit visit) const {
+  const detail::FilterPoint rough(origin, reach_);
+  const float direction[3] = {static_cast<float>(unit[0]), static_cast<float>(unit[1]),
+                              static_cast<float>(unit[2])};
+  tree_.along_ray(origin, unit, bound, [&](Index first, Index count) {
+    alignas(16) float may[4];
+    blocks_[first / detail::BoxTree::kLeafSize].may_meet(rough, direction, may);
+    for (Index k = 0; k < count; ++k)
+      if (may[k] >= 0 && !visit(first + k)) return false;
+    return true;
+  });
 }
 
 inline std::optional<RayHit> BoundingVolumeHierarchy::first_hit(const Vector3& origin,
@@ -67,13 +90,11 @@ inline std::optional<RayHit> BoundingVolumeHierarchy::first_hit(const Vector3& o
                                                                 double max_distance) const {
   const Vector3 unit = direction.normalized();
   RayHit best{kNone, max_distance};
-  tree_.along_ray(origin, unit, best.distance, [&](Index first, Index count) {
-    for (Index i = first; i < first + count; ++i) {
-      const detail::RayTriangle r(origin, unit, triangles_[i]);
-      if (!r.meets_line() || r.volume() == 0) continue;
-      const double t = r.distance(unit);
-      if (t >= 0 && t <= best.distance) best = {face_[i], t};
-    }
+  along_ray(origin, unit, best.distance, [&](Index slot) {
+    const detail::RayTriangle r(origin, unit, triangles_[slot]);
+    if (!r.meets_line() || r.volume() == 0) return true;
+    const double t = r.distance(unit);
+    if (t >= 0 && t <= best.distance) best = {face_[slot], t};
     return true;
   });
   if (best.face == kNone) return std::nullopt;
@@ -84,13 +105,11 @@ inline Index BoundingVolumeHierarchy::count_hits(const Vector3& origin, const Ve
                                                  double max_distance) const {
   const Vector3 unit = direction.normalized();
   Index hits = 0;
-  tree_.along_ray(origin, unit, max_distance, [&](Index first, Index count) {
-    for (Index i = first; i < first + count; ++i) {
-      const detail::RayTriangle r(origin, unit, triangles_[i]);
-      if (!r.meets_line() || r.volume() == 0) continue;
-      const double t = r.distance(unit);
-      if (t >= 0 && t <= max_distance) ++hits;
-    }
+  along_ray(origin, unit, max_distance, [&](Index slot) {
+    const detail::RayTriangle r(origin, unit, triangles_[slot]);
+    if (!r.meets_line() || r.volume() == 0) return true;
+    const double t = r.distance(unit);
+    if (t >= 0 && t <= max_distance) ++hits;
     return true;
   });
   return hits;
@@ -123,21 +142,11 @@ inline bool BoundingVolumeHierarchy::inside(const Vector3& p) const {
   for (int k = 0; k < kDirections; ++k) {
     const Vector3& direction = directions[(start + k) % kDirections];
     bool odd = false, doubtful = false, on_surface = false;
-    tree_.along_ray(p, direction, std::numeric_limits<double>::infinity(), [&](Index first, Index count) {
-      for (Index i = first; i < first + count; ++i)
-        switch (detail::ray_crossing(p, direction, triangles_[i])) {
-          case detail::Crossing::kNone:
-            break;
-          case detail::Crossing::kClear:
-            odd = !odd;
-            break;
-          case detail::Crossing::kDoubtful:
-            doubtful = true;
-            break;
-          case detail::Crossing::kOnSurface:
-            on_surface = true;
-            break;
-        }
+    along_ray(p, direction, std::numeric_limits<double>::infinity(), [&](Index slot) {
+      const detail::Crossing crossing = detail::ray_crossing(p, direction, triangles_[slot]);
+      odd = odd != (crossing == detail::Crossing::kClear);
+      doubtful = doubtful || crossing == detail::Crossing::kDoubtful;
+      on_surface = on_surface || crossing == detail::Crossing::kOnSurface;
       return !doubtful && !on_surface;
     });
     if (on_surface) return true;
@@ -151,7 +160,9 @@ inline bool BoundingVolumeHierarchy::inside(const Vector3& p) const {
 // settle.
 inline bool BoundingVolumeHierarchy::in_winding(const Vector3& p) const {
   double angle = 0.0;
-  for (const detail::Triangle& t : triangles_) {
+  for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    if (face_[i] == kNone) continue;
+    const detail::Triangle& t = triangles_[i];
     const Vector3 a = t.a - p, b = t.b - p, c = t.c - p;
     const double la = a.norm(), lb = b.norm(), lc = c.norm();
     angle += 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
@@ -163,9 +174,8 @@ inline bool BoundingVolumeHierarchy::segment_crosses(const Vector3& a, const Vec
   const double length = (b - a).norm();
   if (!(length > 0)) return false;
   bool crossed = false;
-  tree_.along_ray(a, (b - a) / length, length, [&](Index first, Index count) {
-    for (Index i = first; i < first + count && !crossed; ++i)
-      crossed = detail::segment_meets_triangle(a, b, triangles_[i], false);
+  along_ray(a, (b - a) / length, length, [&](Index slot) {
+    crossed = detail::segment_meets_triangle(a, b, triangles_[slot], false);
     return !crossed;
   });
   return crossed;

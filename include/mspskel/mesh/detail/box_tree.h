@@ -15,6 +15,15 @@ namespace detail {
 
 using Float3 = std::array<float, 3>;
 
+// Four numbers at once. Stored as plain arrays, so that no public type has an alignment that depends on
+// compiler flags.
+using Lanes = Eigen::Array<float, 4, 1>;
+inline Lanes load(const float* four) { return Eigen::Map<const Lanes, Eigen::Aligned16>(four); }
+inline void store(const Lanes& lanes, float* four) {
+  Eigen::Map<Lanes, Eigen::Aligned16> out(four);
+  out = lanes;
+}
+
 struct PrimitiveBox {
   Float3 low, high;
   Index primitive;
@@ -32,8 +41,9 @@ class BoxTree {
  public:
   static constexpr Index kLeafSize = 4;
 
-  // Reorders `boxes`; slot i of the leaves is boxes[i]. `reach` bounds every coordinate's magnitude.
-  void build(std::vector<PrimitiveBox>& boxes, double reach);
+  // Reorders `boxes` and returns the primitive in each slot: leaf i has the slots 4i .. 4i + 3, the last ones
+  // perhaps empty (kNone). `reach` bounds every coordinate's magnitude.
+  std::vector<Index> build(std::vector<PrimitiveBox>& boxes, double reach);
 
   // Calls leaf(first, count) by growing distance from p as long as a box is nearer than `bound` (a squared
   // distance that the callback lowers).
@@ -52,7 +62,7 @@ class BoxTree {
   void in_box(const Vector3& low, const Vector3& high, Leaf leaf) const;
 
  private:
-  Index build_node(PrimitiveBox* boxes, Index begin, Index end, int depth);
+  Index build_node(PrimitiveBox* boxes, Index begin, Index end, int depth, std::vector<Index>& slots);
 
   std::vector<BoxNode> nodes_;
   double reach_ = 0.0;
@@ -140,7 +150,7 @@ inline Index split(PrimitiveBox* boxes, Index begin, Index end, bool halve) {
   return static_cast<Index>(cut - boxes);
 }
 
-inline void BoxTree::build(std::vector<PrimitiveBox>& boxes, double reach) {
+inline std::vector<Index> BoxTree::build(std::vector<PrimitiveBox>& boxes, double reach) {
   nodes_.clear();
   nodes_.reserve(boxes.size() / 4 + 1);
   reach_ = reach;
@@ -152,10 +162,14 @@ inline void BoxTree::build(std::vector<PrimitiveBox>& boxes, double reach) {
       b.low[k] -= pad;
       b.high[k] += pad;
     }
-  build_node(boxes.data(), 0, static_cast<Index>(boxes.size()), 0);
+  std::vector<Index> slots;
+  slots.reserve(boxes.size() + boxes.size() / 2);
+  build_node(boxes.data(), 0, static_cast<Index>(boxes.size()), 0, slots);
+  return slots;
 }
 
-inline Index BoxTree::build_node(PrimitiveBox* boxes, Index begin, Index end, int depth) {
+inline Index BoxTree::build_node(PrimitiveBox* boxes, Index begin, Index end, int depth,
+                                 std::vector<Index>& slots) {
   struct Range {
     Index begin, end;
     Bounds bounds;
@@ -188,15 +202,20 @@ inline Index BoxTree::build_node(PrimitiveBox* boxes, Index begin, Index end, in
       nodes_[node].low[k][r] = bounds.low[k];
       nodes_[node].high[k][r] = bounds.high[k];
     }
-    nodes_[node].child[r] = r < ranges ? range[r].begin : 0;
-    nodes_[node].count[r] = r < ranges ? range[r].end - range[r].begin : 0;
+    nodes_[node].child[r] = nodes_[node].count[r] = 0;
   }
-  for (int r = 0; r < ranges; ++r)
-    if (range[r].end - range[r].begin > kLeafSize) {
-      const Index child = build_node(boxes, range[r].begin, range[r].end, depth + 1);
-      nodes_[node].child[r] = child;
-      nodes_[node].count[r] = 0;
+  for (int r = 0; r < ranges; ++r) {
+    const Index size = range[r].end - range[r].begin;
+    Index child = static_cast<Index>(slots.size());
+    if (size > kLeafSize) {
+      child = build_node(boxes, range[r].begin, range[r].end, depth + 1, slots);
+    } else {
+      for (Index i = 0; i < kLeafSize; ++i)
+        slots.push_back(i < size ? boxes[range[r].begin + i].primitive : kNone);
+      nodes_[node].count[r] = size;
     }
+    nodes_[node].child[r] = child;
+  }
   return node;
 }
 
@@ -242,18 +261,16 @@ void BoxTree::by_distance(const Vector3& p, const double& bound, Leaf leaf) cons
       continue;
     }
     const BoxNode& node = nodes_[top.child];
-    float key[4] = {0, 0, 0, 0};
-    for (int a = 0; a < 3; ++a)
-      for (int k = 0; k < 4; ++k) {
-        const float below = node.low[a][k] - q[a], above = q[a] - node.high[a][k];
-        const float outside = below > above ? below : above, d = outside > 0 ? outside : 0.0f;
-        key[k] += d * d;
-      }
-    bool keep[4];
-    for (int k = 0; k < 4; ++k) {
-      key[k] *= kShrink;
-      keep[k] = static_cast<double>(key[k]) <= bound && key[k] < std::numeric_limits<float>::max();
+    Lanes square = Lanes::Zero();
+    for (int a = 0; a < 3; ++a) {
+      const Lanes outside = (load(node.low[a]) - q[a]).max(q[a] - load(node.high[a])).max(0.0f);
+      square += outside * outside;
     }
+    alignas(16) float key[4];
+    store(square * kShrink, key);
+    bool keep[4];
+    for (int k = 0; k < 4; ++k)
+      keep[k] = static_cast<double>(key[k]) <= bound && key[k] < std::numeric_limits<float>::max();
     stack.push(node, key, keep);
   }
 }
@@ -286,18 +303,16 @@ void BoxTree::along_ray(const Vector3& origin, const Vector3& direction, const d
       continue;
     }
     const BoxNode& node = nodes_[top.child];
-    float enter[4] = {0, 0, 0, 0}, leave[4] = {limit, limit, limit, limit};
+    Lanes in = Lanes::Zero(), out = Lanes::Constant(limit);
     for (int a = 0; a < 3; ++a) {
-      const float* const first = inverse[a] < 0 ? node.high[a] : node.low[a];
-      const float* const last = inverse[a] < 0 ? node.low[a] : node.high[a];
-      for (int k = 0; k < 4; ++k) {
-        const float in = (first[k] - o[a]) * inverse[a], out = (last[k] - o[a]) * inverse[a];
-        enter[k] = in > enter[k] ? in : enter[k];
-        leave[k] = out < leave[k] ? out : leave[k];
-      }
+      in = in.max((load(inverse[a] < 0 ? node.high[a] : node.low[a]) - o[a]) * inverse[a]);
+      out = out.min((load(inverse[a] < 0 ? node.low[a] : node.high[a]) - o[a]) * inverse[a]);
     }
+    alignas(16) float enter[4], leave[4];
+    store(in, enter);
+    store(out * (1.0f + 1e-6f), leave);
     bool keep[4];
-    for (int k = 0; k < 4; ++k) keep[k] = enter[k] <= leave[k] * (1.0f + 1e-6f);
+    for (int k = 0; k < 4; ++k) keep[k] = enter[k] <= leave[k];
     stack.push(node, enter, keep);
   }
 }
