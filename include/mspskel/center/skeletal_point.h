@@ -21,22 +21,24 @@ enum class SkeletalPointMethod {
 
 struct SkeletalPointOptions {
   SkeletalPointMethod method = SkeletalPointMethod::kClosedForm;
-  // Lengths are in perimeters of the outer contour.
-  Index moving_samples = 32;  // sampled force: moving samples, even in arc length; 1 to 10000
-  Index force_samples =
-      64;  // sampled force: force samples on the outer contour, holes at the same spacing; 3 to 100000
-  double displacement = 1e-3;  // sampled force: a moving sample's first distance from the contour, (0, 0.1]
-  double step = 0.25;          // sampled force: a step, in distances to the contour, (0, 0.9]
-  double merge_radius = 0.02;  // both forces: minima closer than this are one, [0, 1]
-  Index starts = 8;            // closed form: descents, even in arc length, 1 to 10000
-  double start_depth =
-      0.5;  // closed form: where on the inward chord of its contour point a descent starts, (0, 0.9]
-  Index max_segments = 0;  // closed form: descend on the contours resampled to this many segments, then
-                           // finish on the whole ones; 0: whole contours all along, or at least 8
-  Index rays = 64;         // visible field: rays, 8 to 100000
-  double tolerance =
-      1e-3;  // Newton: a step shorter than this many mean widths is the last one (its own error is of
-  // second order), [1e-12, 0.1]
+  // Sampled force. Lengths are in perimeters of the outer contour.
+  Index moving_samples = 32;   // moving samples, even in arc length, 1 to 10000
+  Index force_samples = 64;    // on the outer contour, holes at the same spacing, 3 to 100000
+  double displacement = 1e-3;  // a moving sample's first distance from the contour, (0, 0.1]
+  double step = 0.25;          // a step, in distances to the contour, (0, 0.9]
+  // Sampled force and closed form.
+  double merge_radius = 0.02;  // minima closer than this are one, in perimeters, [0, 1]
+  // Closed form.
+  Index starts = 8;          // descents, even in arc length, 1 to 10000
+  double start_depth = 0.5;  // where on the inward chord of its contour point a descent starts, (0, 0.9]
+  // Descend on contours resampled to this many segments, then finish on the whole ones: 8 to 1000000; 0:
+  // never.
+  Index max_segments = 0;
+  // Visible field.
+  Index rays = 64;  // 8 to 100000
+  // Newton: a step shorter than this many mean widths is the last one; its own error is of second order.
+  // [1e-12, 0.1]
+  double tolerance = 1e-3;
   Index max_iterations = 200;  // a sample's steps at most, 1 to 100000
 };
 
@@ -44,13 +46,15 @@ struct SkeletalPointOptions {
 void validate(const SkeletalPointOptions& options);
 
 enum class SkeletalPointStop {
-  kConverged,   // a centre, or a minimum that samples converged to
-  kShoulder,    // sampled force: the winner stopped where the force grows, as the thesis says, though it has
-                // not vanished
+  kConverged,  // a centre, or a minimum that samples converged to
+  // Sampled force: the winner stopped where the force grows, as the thesis says, though it has not vanished.
+  kShoulder,
   kIterations,  // the winner ran out of iterations or of room for smaller steps
-  kClosedFormInstead,  // no zero of the filled or visible region's field well inside: the closed form's point
-  kDeepestSample,      // no sample got anywhere: the one farthest from the contour
-  kDegenerate,         // no region to speak of: the contour's centre
+  // The region's centroid lies outside, or the filled or visible region's field has no zero well inside: the
+  // nearest valley's point.
+  kNearestValleyInstead,
+  kDeepestSample,  // no sample got anywhere: the one farthest from the contour
+  kDegenerate,     // no region to speak of: the contour's centre
 };
 
 inline constexpr std::size_t kSkeletalPointStops = 6;

@@ -269,26 +269,22 @@ inline bool central(const PlanarRegion& region, const Vector2& p) {
   return region.distance(p) >= kLeastDepth * region.mean_width();
 }
 
-inline SkeletalPoint by_closed_form_instead(const PlanarRegion& region, const SkeletalPointOptions& options) {
-  SkeletalPoint result = by_closed_form(region, options);
-  if (result.stop != SkeletalPointStop::kDegenerate) result.stop = SkeletalPointStop::kClosedFormInstead;
+inline SkeletalPoint by_nearest_valley_instead(const PlanarRegion& region,
+                                               const SkeletalPointOptions& options, Index iterations_before) {
+  SkeletalPoint result = by_nearest_valley(region, options);
+  result.iterations += iterations_before;
+  if (result.stop == SkeletalPointStop::kConverged) result.stop = SkeletalPointStop::kNearestValleyInstead;
   return result;
 }
 
-// A start for the field methods: the region's centroid if it lies inside, else the deepest sample.
-inline SkeletalPoint field_start(const PlanarRegion& region) {
-  SkeletalPoint start;
-  start.position = region.centroid();
-  start.stop = SkeletalPointStop::kIterations;
-  return region.contains(start.position) ? start : deepest_sample(region, 32);
-}
-
 inline SkeletalPoint by_area_field(const PlanarRegion& region, const SkeletalPointOptions& options) {
-  SkeletalPoint result = field_start(region);
-  if (result.stop == SkeletalPointStop::kDegenerate) return result;
+  const Vector2 start = region.centroid();
+  if (!region.contains(start)) return by_nearest_valley_instead(region, options, 0);
   const auto field = [&](const Vector2& p) { return area_field(region, p); };
-  const Descent d = descend(region, field, result.position, rule_of(options), none_near);
-  if (!d.converged || !central(region, d.position)) return by_closed_form_instead(region, options);
+  const Descent d = descend(region, field, start, rule_of(options), none_near);
+  if (!d.converged || !central(region, d.position))
+    return by_nearest_valley_instead(region, options, d.iterations);
+  SkeletalPoint result;
   result.position = d.position;
   result.iterations = d.iterations;
   result.samples = result.votes = result.minima = 1;
@@ -299,8 +295,9 @@ inline SkeletalPoint by_area_field(const PlanarRegion& region, const SkeletalPoi
 // The fixed point x ← x + F / π, exact in one step for a disc. The field is no gradient where parts are
 // hidden, so the step is halved whenever the force does not fall.
 inline SkeletalPoint by_visible_field(const PlanarRegion& region, const SkeletalPointOptions& options) {
-  SkeletalPoint result = field_start(region);
-  if (result.stop == SkeletalPointStop::kDegenerate) return result;
+  SkeletalPoint result;
+  result.position = region.centroid();
+  if (!region.contains(result.position)) return by_nearest_valley_instead(region, options, 0);
   result.stop = SkeletalPointStop::kIterations;
   result.samples = result.votes = result.minima = 1;
   const double smallest = options.tolerance * region.mean_width();
@@ -320,7 +317,7 @@ inline SkeletalPoint by_visible_field(const PlanarRegion& region, const Skeletal
     }
   }
   const bool good = result.stop == SkeletalPointStop::kConverged && central(region, result.position);
-  return good ? result : by_closed_form_instead(region, options);
+  return good ? result : by_nearest_valley_instead(region, options, result.iterations);
 }
 
 inline void require(bool good, const char* option, const char* range) {
