@@ -42,7 +42,7 @@ Family plate() {
       "hole diameter / distance of holes", 0.55, 0.2, 0.75);
   const auto make = [](const SampleOptions& o) {
     constexpr double kHalfThickness = 0.18, kRounding = 0.1;
-    const auto columns = std::max<Index>(1, static_cast<Index>(std::ceil(std::sqrt(1.3 * o.count))));
+    const auto columns = std::max<Index>(1, static_cast<Index>(std::ceil(std::sqrt(o.count))));
     const Index rows = std::max<Index>(1, (o.count + columns - 1) / columns);
     const double half_x = 0.5 * columns + 0.15, half_y = 0.5 * rows + 0.1;
     const auto holes = std::make_shared<std::vector<Hole>>(plate_holes(o.count, columns, 1.0, o));
@@ -91,7 +91,7 @@ Family handles() {
     solid.value = [=](const Vector3& p) {
       return smooth_minimum(p.norm() - 1, std::min(left.value(p), right.value(p)), kBlend);
     };
-    return polygonise(solid, o.resolution, std::min(0.08, 0.85 * 2 * kTube * o.ratio));
+    return y_upward(polygonise(solid, o.resolution, std::min(0.08, 0.85 * 2 * kTube * o.ratio)));
   };
   return {info, make, {}};
 }
@@ -172,7 +172,7 @@ Family cup() {
       const double beyond = 0.9 + 0.1 * p.z() - q.x();
       return smooth_minimum(body, std::max(grip.value(p), beyond), 0.08);
     };
-    return polygonise(solid, o.resolution, 0.5 * o.ratio);
+    return y_upward(polygonise(solid, o.resolution, 0.5 * o.ratio));
   };
   return {info, make, [](SampleInfo& i, const SampleOptions& o) {
             i.least_resolution = std::max<Index>(3000, static_cast<Index>(60 / (o.ratio * o.ratio)));

@@ -1,5 +1,6 @@
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "mspskel/base/error.h"
 #include "mspskel/mesh/default_mesh.h"
@@ -122,26 +123,43 @@ class Remesher {
     mesh_.garbage_collection();
   }
 
-  int excess(VertexHandle v) const { return static_cast<int>(mesh_.valence(v)) - 6; }
+  // How far the valences of an edge's ends a, b and its two apexes c, d are from six, squared.
+  //      c
+  //     / \.        a flip takes one from a and b
+  //    a - b         and gives it to c and d
+  //     \ /
+  //      d
+  static int excess(const std::array<int, 4>& valence, int flips) {
+    int sum = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const int x = valence[i] - 6 + (i < 2 ? -flips : flips);
+      sum += x * x;
+    }
+    return sum;
+  }
 
   // Valences toward six, where the two faces are flat enough for either diagonal.
   void flip_edges() {
+    std::vector<int> valence(mesh_.n_vertices(), 0);
+    for (const auto h : mesh_.halfedges()) ++valence[mesh_.to_vertex_handle(h).idx()];
     for (const auto e : mesh_.edges()) {
       const auto h = mesh_.halfedge_handle(e, 0), o = mesh_.halfedge_handle(e, 1);
       const VertexHandle a = mesh_.from_vertex_handle(h), b = mesh_.to_vertex_handle(h);
       const VertexHandle c = mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h)),
                          d = mesh_.to_vertex_handle(mesh_.next_halfedge_handle(o));
-      const auto square = [](int x) { return x * x; };
-      const int before = square(excess(a)) + square(excess(b)) + square(excess(c)) + square(excess(d));
-      const int after =
-          square(excess(a) - 1) + square(excess(b) - 1) + square(excess(c) + 1) + square(excess(d) + 1);
-      if (after >= before || !mesh_.is_flip_ok(e)) continue;
-      const Point &pa = mesh_.point(a), &pb = mesh_.point(b), &pc = mesh_.point(c), &pd = mesh_.point(d);
-      const Point old = normal(pa, pb, pc) + normal(pb, pa, pd), outward = up(a, b, c) + up(b, a, d);
-      if (turns(old, normal(pa, pd, pc), outward) || turns(old, normal(pb, pc, pd), outward)) continue;
-      if (cosine(normal(pa, pb, pc), normal(pb, pa, pd)) < kLeastCosine) continue;
+      const std::array<int, 4> around{valence[a.idx()], valence[b.idx()], valence[c.idx()], valence[d.idx()]};
+      if (excess(around, 1) >= excess(around, 0) || !may_flip(a, b, c, d) || !mesh_.is_flip_ok(e)) continue;
       mesh_.flip(e);
+      --valence[a.idx()], --valence[b.idx()], ++valence[c.idx()], ++valence[d.idx()];
     }
+  }
+
+  bool may_flip(VertexHandle a, VertexHandle b, VertexHandle c, VertexHandle d) const {
+    const Point &pa = mesh_.point(a), &pb = mesh_.point(b), &pc = mesh_.point(c), &pd = mesh_.point(d);
+    const Point left = normal(pa, pb, pc), right = normal(pb, pa, pd), outward = up(a, b, c) + up(b, a, d);
+    if (cosine(left, right) < kLeastCosine) return false;
+    return !turns(left + right, normal(pa, pd, pc), outward) &&
+           !turns(left + right, normal(pb, pc, pd), outward);
   }
 
   // Forward differences over a hundredth of an edge.
@@ -186,12 +204,14 @@ class Remesher {
   void relax(int newton_steps) {
     for (const auto v : mesh_.vertices()) {
       Vector3 mean = Vector3::Zero(), normal_sum = Vector3::Zero();
+      int valence = 0;
       for (auto it = mesh_.cvoh_iter(v); it.is_valid(); ++it) {
         const Point b = mesh_.point(mesh_.to_vertex_handle(*it));
         mean += to_vector3(b);
+        ++valence;
         normal_sum += to_vector3(normal(mesh_.point(v), b, apex(*it)));
       }
-      mean /= static_cast<double>(mesh_.valence(v));
+      mean /= valence;
       normal_sum.normalize();
       const Vector3 p = to_vector3(mesh_.point(v)), shift = mean - p;
       Vector3 outward;

@@ -299,6 +299,11 @@ PolygonSoup moved(PolygonSoup soup, const Eigen::Matrix3d& turn, const Vector3& 
   return soup;
 }
 
+PolygonSoup y_upward(PolygonSoup soup) {
+  for (Vector3& p : soup.points) p = Vector3(p.x(), p.z(), -p.y());
+  return soup;
+}
+
 void append(PolygonSoup& soup, const PolygonSoup& other) {
   const auto shift = static_cast<Index>(soup.points.size());
   const Index base = soup.begin.back();

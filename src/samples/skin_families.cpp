@@ -57,7 +57,7 @@ Family quadruped() {
       grow(g, nape,
            {{{2.5, 0.06 + 0.24 * side, 1.95}, 0.15}, {{2.42, 0.08 + 0.34 * side, 2.45 + 0.05 * side}, 0.11}});
     grow(g, 0, {{{-2.75, -0.05, 0.4}, 0.2}, {{-3.4, -0.15, 0.1}, 0.15}, {{-3.75, -0.3, -0.7}, 0.13}});
-    return skin_graph(g, o.resolution);
+    return y_upward(skin_graph(g, o.resolution));
   };
   return {facts("quadruped", "four-legged creature: legs, snout, two ears and a tail round a given skeleton",
                 0, 8, 5000, 2500),
@@ -84,7 +84,7 @@ Family octoped() {
       }
       grow(g, 0, nodes);
     }
-    return skin_graph(g, o.resolution);
+    return y_upward(skin_graph(g, o.resolution));
   };
   return {
       facts("octoped", "eight curled arms and a head round a given skeleton", 0, 9, 6000, 2500), make, {}};

@@ -35,8 +35,10 @@ namespace {
 struct Limb {
   BallNode a, b;
   Vector3 middle;
-  double reach;
+  double reach, blend;
 };
+// Of a limb's radius: wider fillets would thicken a chain of short limbs at its nodes.
+constexpr double kWidestBlend = 0.6;
 }  // namespace
 
 ImplicitSolid skin_solid(const BallGraph& graph) {
@@ -55,16 +57,17 @@ ImplicitSolid skin_solid(const BallGraph& graph) {
     const BallNode &a = graph.nodes.at(static_cast<std::size_t>(i)),
                    &b = graph.nodes.at(static_cast<std::size_t>(j));
     limbs->push_back({a, b, 0.5 * (a.position + b.position),
-                      0.5 * (a.position - b.position).norm() + std::max(a.radius, b.radius)});
+                      0.5 * (a.position - b.position).norm() + std::max(a.radius, b.radius),
+                      std::min(graph.blend, kWidestBlend * std::min(a.radius, b.radius))});
   }
-  solid.value = [limbs, blend = graph.blend](const Vector3& p) {
+  solid.value = [limbs](const Vector3& p) {
     double result = 1e300;
     for (const Limb& limb : *limbs) {
       // A limb whose ball is farther than the result by the blend leaves no trace.
-      const double margin = result + blend + limb.reach;
+      const double margin = result + limb.blend + limb.reach;
       if (margin < 0 || (p - limb.middle).squaredNorm() > margin * margin) continue;
       const double distance = round_cone_distance(p, limb.a, limb.b);
-      result = blend > 0 ? smooth_minimum(result, distance, blend) : std::min(result, distance);
+      result = limb.blend > 0 ? smooth_minimum(result, distance, limb.blend) : std::min(result, distance);
     }
     return result;
   };

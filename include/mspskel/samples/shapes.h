@@ -56,6 +56,9 @@ void append(PolygonSoup& soup, const PolygonSoup& other);
 // Turns and moves every point: x -> turn · x + shift. Precondition: `turn` is a rotation.
 PolygonSoup moved(PolygonSoup soup, const Eigen::Matrix3d& turn, const Vector3& shift);
 
+// Models that stand on a floor are built with z upward and handed out with y upward.
+PolygonSoup y_upward(PolygonSoup soup);
+
 // Turns the surface inside out: cavities have inward pointing boundaries.
 void reverse_orientation(PolygonSoup& soup);
 

@@ -18,7 +18,8 @@ struct BallNode {
 struct BallGraph {
   std::vector<BallNode> nodes;
   std::vector<std::pair<Index, Index>> edges;
-  double blend = 0.1;  // width of the fillets where limbs meet, model units, >= 0
+  double blend = 0.1;  // width of the fillets where limbs meet, model units, >= 0; at most 0.6 of a limb's
+                       // thinner radius is used
 };
 
 // Distance to the round cone over two balls, negative inside: the convex hull of both (Quilez, "round cone").
