@@ -3,9 +3,10 @@
 
 #include <catch2/catch.hpp>
 #include <cstring>
+#include <set>
 
 #include "mspskel/base/error.h"
-#include "mspskel/mesh/surface_snapshot.h"
+#include "mspskel/mesh/self_intersection.h"
 #include "support/meshes.h"
 
 using namespace mspskel;
@@ -22,7 +23,7 @@ bool same_bytes(const PolygonSoup& a, const PolygonSoup& b) {
 }
 }  // namespace
 
-TEST_CASE("each sample has the topology, the orientation and about the resolution that it promises") {
+TEST_CASE("each sample is embedded, with the topology, orientation and resolution that it promises") {
   for (const SampleInfo& info : list_samples()) {
     for (const Index resolution :
          {info.least_resolution, std::min(info.resolution, 2 * info.least_resolution)}) {
@@ -36,6 +37,7 @@ TEST_CASE("each sample has the topology, the orientation and about the resolutio
       CHECK(signed_volume(mesh) > 0);
       CHECK(s.vertex_count() < 1.5 * resolution + 50);
       CHECK(s.vertex_count() > 0.75 * resolution - 20);
+      CHECK(count_self_intersections(s, BoundingVolumeHierarchy(s), 1) == 0);
       for (Index v = 0; v < s.vertex_count(); ++v) REQUIRE(s.vertex_halfedge[v] != kNone);
     }
   }
@@ -56,7 +58,7 @@ TEST_CASE("samples are the same bytes each time and differ with the seed") {
 
 TEST_CASE("the count sets the genus and the number of pieces") {
   SampleOptions options;
-  for (const Index holes : {1, 7, 60}) {
+  for (const Index holes : {1, 7, 30}) {
     options = {};
     options.count = holes;
     const SampleInfo info = describe_sample("plate", options);
@@ -109,12 +111,25 @@ TEST_CASE("a bad name or value is a usage error that names what is near") {
 }
 
 TEST_CASE("the test meshes are closed and renumbering keeps the surface") {
-  for (const DefaultMesh& mesh :
-       {tetrahedron(), octahedron(), cube(), prism(5, 2, 4), tube(1, 5, 12, 10), sphere(300)}) {
+  for (const DefaultMesh& mesh : {tetrahedron(), octahedron(), cube(), prism(5, 2, 4), tube(1, 5, 12, 10),
+                                  sphere(300), saddle(3, 24, 6), y_tube(400)}) {
     CHECK(make_snapshot(mesh).component_count == 1);
     CHECK(signed_volume(mesh) > 0);
     CHECK(signed_volume(renumbered(mesh, 3)) == Approx(signed_volume(mesh)));
   }
   const SurfaceSnapshot t = make_snapshot(torus(1, 0.4, 30, 12));
   CHECK(t.vertex_count() - t.halfedge_count() / 2 + t.face_count() == 0);
+}
+
+TEST_CASE("extreme ratios do not make a sample intersect itself") {
+  for (const char* name : {"torus", "trefoil", "figure-eight", "chain", "borromean-rings", "bowl", "plate"})
+    for (const bool most : {false, true}) {
+      const SampleInfo info = describe_sample(name);
+      SampleOptions options;
+      options.ratio = most ? info.most_ratio : info.least_ratio;
+      options.resolution = info.least_resolution;
+      INFO(name << " ratio " << options.ratio);
+      const SurfaceSnapshot s = make_snapshot(to_mesh(make_sample(name, options)));
+      CHECK(count_self_intersections(s, BoundingVolumeHierarchy(s), 1) == 0);
+    }
 }

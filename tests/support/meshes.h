@@ -2,16 +2,19 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <functional>
 #include <numeric>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "mspskel/base/types.h"
 #include "mspskel/mesh/default_mesh.h"
 #include "mspskel/mesh/polygon_soup.h"
+#include "mspskel/samples/samples.h"
 #include "mspskel/samples/shapes.h"
 
 namespace mspskel::test {
@@ -154,6 +157,39 @@ inline DefaultMesh torus(double major, double minor, Index nu, Index nv) {
       soup.add_triangle(a, c, d);
     }
   return to_mesh(soup);
+}
+
+// A block whose top is the graph z = 1 + 0.3 r² cos(lobes · angle): vertex 0 is its centre, a saddle with
+// `lobes` ways down (2: ordinary, 3: monkey saddle). Rings of `segments` vertices each, flat bottom at z = 0.
+inline DefaultMesh saddle(Index lobes, Index segments, Index rings) {
+  PolygonSoup soup;
+  soup.points.push_back({0, 0, 1});
+  const auto index = [=](Index ring, Index i) { return 1 + ring * segments + i % segments; };
+  for (Index ring = 0; ring <= rings; ++ring)
+    for (Index i = 0; i < segments; ++i) {
+      const Index step = std::min(ring + 1, rings);
+      const double r = static_cast<double>(step) / rings, angle = 2 * kPi * (i + 0.31 * step) / segments;
+      const double z = ring == rings ? 0.0 : 1 + 0.3 * r * r * std::cos(lobes * angle);
+      soup.points.push_back({r * std::cos(angle), r * std::sin(angle), z});
+    }
+  soup.points.push_back({0, 0, 0});
+  const auto bottom = static_cast<Index>(soup.points.size()) - 1;
+  for (Index i = 0; i < segments; ++i) {
+    soup.add_triangle(0, index(0, i), index(0, i + 1));
+    soup.add_triangle(bottom, index(rings, i + 1), index(rings, i));
+    for (Index ring = 0; ring < rings; ++ring) {
+      soup.add_triangle(index(ring, i), index(ring + 1, i), index(ring + 1, i + 1));
+      soup.add_triangle(index(ring, i), index(ring + 1, i + 1), index(ring, i + 1));
+    }
+  }
+  return to_mesh(soup);
+}
+
+// Three tubes that meet: three leaves and a joint.
+inline DefaultMesh y_tube(Index vertices) {
+  SampleOptions options;
+  options.resolution = vertices;
+  return to_mesh(make_sample("y-tube", options));
 }
 
 // Unit sphere with about `vertices` vertices, quasi-uniform, without ties.
