@@ -1,12 +1,9 @@
 // Every variant of OFF gives the same tetrahedron; every defect is refused with its line.
-#include <catch2/catch.hpp>
-#include <string>
-
-#include "mspskel/base/error.h"
-#include "mspskel/io/read_mesh.h"
+#include "io/tetrahedron_text.h"
 
 using namespace mspskel;
-using Catch::Contains;
+using mspskel::test::check_tetrahedron;
+using mspskel::test::replace_all;
 
 namespace {
 
@@ -16,26 +13,8 @@ const std::string kFaces = "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
 PolygonSoup off(const std::string& text) {
   return read_polygon_soup(std::string_view(text), MeshFormat::kOff);
 }
-
-void check_tetrahedron(const PolygonSoup& soup) {
-  REQUIRE(soup.points.size() == 4);
-  CHECK(soup.points[0] == Vector3(0, 0, 0));
-  CHECK(soup.points[1] == Vector3(1, 0, 0));
-  CHECK(soup.points[2] == Vector3(0, 1, 0));
-  CHECK(soup.points[3] == Vector3(0, 0, 1));
-  CHECK(soup.begin == std::vector<Index>{0, 3, 6, 9, 12});
-  CHECK(soup.corners == std::vector<Index>{0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3});
-}
-
 void check_refused(const std::string& text, const std::string& where, const std::string& what) {
-  INFO(text);
-  CHECK_THROWS_WITH(off(text), Contains(where) && Contains(what));
-}
-
-std::string replace_all(std::string text, const std::string& from, const std::string& to) {
-  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
-    text.replace(at, from.size(), to);
-  return text;
+  test::check_refused(MeshFormat::kOff, text, where, what);
 }
 
 }  // namespace

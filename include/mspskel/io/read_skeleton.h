@@ -1,0 +1,22 @@
+// Reads a curve skeleton back.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "mspskel/graph/curve_skeleton.h"
+#include "mspskel/io/write_skeleton.h"
+
+namespace mspskel {
+
+// Reads .skel, .obj (v and l) and .json, by extension; "-" is .skel from standard input. Positions and edges,
+// radii from .skel and .json, the surface map and the other node values from .json. Edges come out sorted,
+// each once. Throws ReadError that names the path and, for text formats, the line: a malformed file, an index
+// out of range, an edge from a node to itself, a number that is not finite. Throws UsageError for another
+// extension.
+CurveSkeleton read_skeleton(const std::string& path);
+
+// The same from memory. Throws UsageError for formats that are only written.
+CurveSkeleton read_skeleton(std::string_view bytes, SkeletonFormat format);
+
+}  // namespace mspskel

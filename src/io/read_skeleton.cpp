@@ -1,0 +1,193 @@
+#include "mspskel/io/read_skeleton.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "mspskel/base/error.h"
+#include "read_bytes.h"
+#include "text_scanner.h"
+
+namespace mspskel {
+namespace {
+
+using detail::Syntax;
+using detail::TextScanner;
+
+// Sorted, each once; throws by calling fail(message) for an edge that no graph has.
+template <class Fail>
+void add_edge(CurveSkeleton& skeleton, std::int64_t a, std::int64_t b, std::int64_t count, Fail fail) {
+  for (const std::int64_t v : {a, b})
+    if (v < 0 || v >= count)
+      fail("node index " + std::to_string(v) + " is out of range, there are " + std::to_string(count) +
+           " nodes");
+  if (a == b) fail("node " + std::to_string(a) + " has an edge to itself");
+  skeleton.edges.push_back({static_cast<Index>(std::min(a, b)), static_cast<Index>(std::max(a, b))});
+}
+void sort_edges(CurveSkeleton& skeleton) {
+  std::sort(skeleton.edges.begin(), skeleton.edges.end());
+  skeleton.edges.erase(std::unique(skeleton.edges.begin(), skeleton.edges.end()), skeleton.edges.end());
+}
+
+CurveSkeleton parse_skel(std::string_view bytes) {
+  TextScanner scan(bytes, Syntax::kHashComments);
+  const auto fail = [&](const std::string& message) { scan.fail(scan.position(), message); };
+  scan.skip_blank();
+  const char* start = scan.position();
+  if (scan.word() != "ID") scan.fail(start, "the first line does not start with ID");
+  scan.skip_line();
+  const std::int64_t count = scan.integer("the number of nodes");
+  // A node takes six numbers of at least two bytes each.
+  if (count < 0 || static_cast<std::uint64_t>(count) > scan.room_for(12))
+    fail("there cannot be " + std::to_string(count) + " nodes here");
+  CurveSkeleton skeleton;
+  skeleton.nodes.resize(static_cast<std::size_t>(count));
+  for (std::int64_t i = 0; i < count; ++i) {
+    const std::int64_t id = scan.integer("a node's number");
+    if (id != i) fail("expected node " + std::to_string(i) + ", found " + std::to_string(id));
+    SkeletonNode& node = skeleton.nodes[static_cast<std::size_t>(i)];
+    for (int k = 0; k < 3; ++k) node.position[k] = scan.coordinate("a coordinate");
+    node.radius = scan.coordinate("a radius");
+    const std::int64_t neighbors = scan.integer("the number of neighbours");
+    if (neighbors < 0 || static_cast<std::uint64_t>(neighbors) > scan.room_for(2))
+      fail("a node cannot have " + std::to_string(neighbors) + " neighbours here");
+    for (std::int64_t n = 0; n < neighbors; ++n)
+      add_edge(skeleton, i, scan.integer("a neighbour"), count, fail);
+  }
+  if (scan.skip_blank()) fail("there is more after the last node");
+  sort_edges(skeleton);
+  return skeleton;
+}
+
+// v and l records; negative indices count from the last v.
+CurveSkeleton parse_obj(std::string_view bytes) {
+  TextScanner scan(bytes, Syntax::kHashComments);
+  CurveSkeleton skeleton;
+  struct Link {
+    std::int64_t a, b;
+    const char* at;
+  };
+  std::vector<Link> links;  // may name nodes that come later
+  while (scan.skip_blank()) {
+    const std::string_view tag = scan.word();
+    if (tag == "v") {
+      SkeletonNode node;
+      for (int k = 0; k < 3; ++k) {
+        if (!scan.skip_spaces()) scan.fail_expected("a coordinate");
+        node.position[k] = scan.coordinate_here("a coordinate");
+      }
+      skeleton.nodes.push_back(node);
+    } else if (tag == "l") {
+      std::int64_t last = -1;
+      while (scan.skip_spaces()) {
+        const char* at = scan.position();
+        const std::int64_t index = scan.integer_here("a node index");
+        if (index == 0) scan.fail(at, "node index 0 is out of range, indices start from 1");
+        const std::int64_t v =
+            index < 0 ? static_cast<std::int64_t>(skeleton.nodes.size()) + index : index - 1;
+        if (v < 0) scan.fail(at, "node index " + std::to_string(index) + " is out of range");
+        if (last >= 0) links.push_back({last, v, at});
+        last = v;
+      }
+    }
+    scan.skip_line();
+  }
+  for (const Link& link : links)
+    add_edge(skeleton, link.a, link.b, static_cast<std::int64_t>(skeleton.nodes.size()),
+             [&](const std::string& message) { scan.fail(link.at, message); });
+  sort_edges(skeleton);
+  return skeleton;
+}
+
+using Json = nlohmann::json;
+
+double number_of(const Json& value, const char* what) {
+  if (!value.is_number() || !std::isfinite(value.get<double>()))
+    throw ReadError(std::string(what) + " is not a finite number");
+  return value.get<double>();
+}
+std::int64_t integer_of(const Json& value, const char* what) {
+  if (!value.is_number_integer()) throw ReadError(std::string(what) + " is not an integer");
+  return value.get<std::int64_t>();
+}
+const Json& array_of(const Json& document, const char* name) {
+  const auto found = document.find(name);
+  if (found == document.end() || !found->is_array())
+    throw ReadError(std::string("there is no array \"") + name + "\"");
+  return *found;
+}
+
+SkeletonNode node_of(const Json& value) {
+  if (!value.is_object()) throw ReadError("a node is not an object");
+  SkeletonNode node;
+  const Json& position = array_of(value, "position");
+  if (position.size() != 3) throw ReadError("a node's position has not three coordinates");
+  for (int k = 0; k < 3; ++k)
+    node.position[k] = number_of(position[static_cast<std::size_t>(k)], "a coordinate");
+  const auto read = [&](const char* name, double& target) {
+    const auto found = value.find(name);
+    if (found != value.end() && !found->is_null()) target = number_of(*found, name);
+  };
+  read("radius", node.radius);
+  read("area", node.area);
+  read("perimeter", node.perimeter);
+  read("slice_error", node.slice_error);
+  return node;
+}
+
+CurveSkeleton parse_json(std::string_view bytes) {
+  Json document;
+  try {
+    document = Json::parse(bytes);
+  } catch (const Json::exception& error) {
+    throw ReadError(error.what());  // it names line and column
+  }
+  if (!document.is_object()) throw ReadError("the document is not an object");
+  CurveSkeleton skeleton;
+  for (const Json& node : array_of(document, "nodes")) skeleton.nodes.push_back(node_of(node));
+  const auto count = static_cast<std::int64_t>(skeleton.nodes.size());
+  for (const Json& edge : array_of(document, "edges")) {
+    if (!edge.is_object() || !edge.contains("source") || !edge.contains("target"))
+      throw ReadError("an edge has no source and target");
+    add_edge(skeleton, integer_of(edge["source"], "an edge's source"),
+             integer_of(edge["target"], "an edge's target"), count,
+             [](const std::string& message) { throw ReadError(message); });
+  }
+  if (document.contains("node_of_vertex")) {
+    for (const Json& value : array_of(document, "node_of_vertex")) {
+      const std::int64_t node = integer_of(value, "an entry of node_of_vertex");
+      if (node < kNone || node >= count) throw ReadError("node_of_vertex names node " + std::to_string(node));
+      skeleton.node_of_vertex.push_back(static_cast<Index>(node));
+    }
+  }
+  sort_edges(skeleton);
+  return skeleton;
+}
+
+}  // namespace
+
+CurveSkeleton read_skeleton(std::string_view bytes, SkeletonFormat format) {
+  switch (format) {
+    case SkeletonFormat::kSkel:
+      return parse_skel(bytes);
+    case SkeletonFormat::kObj:
+      return parse_obj(bytes);
+    case SkeletonFormat::kJson:
+      return parse_json(bytes);
+    default:
+      throw UsageError("skeletons are read from .skel .obj .json only");
+  }
+}
+
+CurveSkeleton read_skeleton(const std::string& path) {
+  const SkeletonFormat format = skeleton_format_of(path);
+  if (format != SkeletonFormat::kSkel && format != SkeletonFormat::kObj && format != SkeletonFormat::kJson)
+    throw UsageError("cannot read " + path + ": skeletons are read from .skel .obj .json only");
+  const std::string bytes = detail::read_bytes(path);
+  try {
+    return read_skeleton(bytes, format);
+  } catch (const ReadError& error) {
+    throw ReadError((path == "-" ? "standard input" : path) + ": " + error.what());
+  }
+}
+
+}  // namespace mspskel

@@ -1,0 +1,260 @@
+#include "mspskel/io/write_skeleton.h"
+
+#include <nlohmann/json.hpp>
+
+#include "append_text.h"
+#include "mesh_parsers.h"
+#include "mspskel/base/error.h"
+#include "mspskel/io/atomic_file.h"
+
+namespace mspskel {
+namespace {
+
+using detail::append;
+using detail::append_all;
+
+struct Extension {
+  const char* text;
+  SkeletonFormat format;
+};
+constexpr Extension kExtensions[] = {{".skel", SkeletonFormat::kSkel},
+                                     {".obj", SkeletonFormat::kObj},
+                                     {".ply", SkeletonFormat::kPly},
+                                     {".json", SkeletonFormat::kJson},
+                                     {".swc", SkeletonFormat::kSwc},
+                                     {".vtp", SkeletonFormat::kVtp},
+                                     {".graphml", SkeletonFormat::kGraphml},
+                                     {".cgal", SkeletonFormat::kPolylines},
+                                     {".polylines.txt", SkeletonFormat::kPolylines}};
+
+std::string format_skel(const CurveSkeleton& skeleton) {
+  std::string out = "ID Cx Cy Cz RADIUS #NEIGHBORS NEIGHBORS_LIST\n";
+  append_all(out, skeleton.nodes.size(), '\n');
+  const auto neighbors = adjacency(skeleton);
+  for (std::size_t v = 0; v < skeleton.nodes.size(); ++v) {
+    append_all(out, v, ' ', skeleton.nodes[v].position, ' ', skeleton.nodes[v].radius, ' ',
+               neighbors[v].size());
+    for (const Index w : neighbors[v]) append_all(out, ' ', w);
+    out += '\n';
+  }
+  return out;
+}
+
+std::string format_obj(const CurveSkeleton& skeleton) {
+  std::string out;
+  for (const SkeletonNode& node : skeleton.nodes) append_all(out, "v ", node.position, '\n');
+  for (const auto& [a, b] : skeleton.edges) append_all(out, "l ", a + 1, ' ', b + 1, '\n');
+  return out;
+}
+
+std::string format_ply(const CurveSkeleton& skeleton) {
+  std::string out = "ply\nformat ascii 1.0\n";
+  append_all(out, "element vertex ", skeleton.nodes.size(),
+             "\nproperty double x\nproperty double y\nproperty double z\nproperty double radius\n");
+  append_all(out, "element edge ", skeleton.edges.size(),
+             "\nproperty int vertex1\nproperty int vertex2\nend_header\n");
+  for (const SkeletonNode& node : skeleton.nodes) append_all(out, node.position, ' ', node.radius, '\n');
+  for (const auto& [a, b] : skeleton.edges) append_all(out, a, ' ', b, '\n');
+  return out;
+}
+
+std::string format_json(const CurveSkeleton& skeleton, const std::string& report) {
+  using Json = nlohmann::ordered_json;
+  Json nodes = Json::array(), edges = Json::array(), arcs = Json::array();
+  for (std::size_t v = 0; v < skeleton.nodes.size(); ++v) {
+    const SkeletonNode& node = skeleton.nodes[v];
+    nodes.push_back({{"id", v},
+                     {"position", {node.position[0], node.position[1], node.position[2]}},
+                     {"radius", node.radius},
+                     {"area", node.area},
+                     {"perimeter", node.perimeter},
+                     {"slice_error", node.slice_error}});
+  }
+  for (const auto& [a, b] : skeleton.edges) edges.push_back({{"source", a}, {"target", b}});
+  for (const Branch& branch : branches(skeleton)) arcs.push_back(branch.nodes);
+  Json document{{"directed", false}, {"multigraph", false}, {"graph", {{"name", "curve skeleton"}}}};
+  document["nodes"] = std::move(nodes);
+  document["edges"] = std::move(edges);
+  document["branches"] = std::move(arcs);
+  document["node_of_vertex"] = skeleton.node_of_vertex;
+  if (!report.empty()) {
+    Json parsed = Json::parse(report, nullptr, false);
+    if (parsed.is_discarded()) throw UsageError("the report for a JSON skeleton is not JSON");
+    document["report"] = std::move(parsed);
+  }
+  return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+// A breadth-first tree of every component: nodes in order, parents first, and the edges that are left.
+struct SpanningForest {
+  std::vector<Index> order, parent;
+  std::vector<std::array<Index, 2>> cut;
+};
+SpanningForest span(const CurveSkeleton& skeleton) {
+  const auto neighbors = adjacency(skeleton);
+  const auto count = static_cast<Index>(skeleton.nodes.size());
+  SpanningForest forest;
+  forest.parent.assign(skeleton.nodes.size(), kNone);
+  std::vector<char> seen(skeleton.nodes.size(), 0);
+  for (Index root = 0; root < count; ++root) {
+    if (seen[root]) continue;
+    seen[root] = 1;
+    std::size_t at = forest.order.size();
+    for (forest.order.push_back(root); at < forest.order.size(); ++at) {
+      const Index v = forest.order[at];
+      for (const Index w : neighbors[v]) {
+        if (seen[w]) continue;
+        seen[w] = 1;
+        forest.parent[w] = v;
+        forest.order.push_back(w);
+      }
+    }
+  }
+  for (const auto& [a, b] : skeleton.edges)
+    if (forest.parent[a] != b && forest.parent[b] != a) forest.cut.push_back({a, b});
+  return forest;
+}
+
+std::string format_swc(const CurveSkeleton& skeleton) {
+  const SpanningForest forest = span(skeleton);
+  std::vector<Index> id(skeleton.nodes.size());
+  for (std::size_t i = 0; i < forest.order.size(); ++i) id[forest.order[i]] = static_cast<Index>(i + 1);
+  std::string out = "# index type x y z radius parent\n";
+  for (const auto& [a, b] : forest.cut) append_all(out, "# cut edge ", id[a], ' ', id[b], '\n');
+  for (const Index v : forest.order) {
+    const Index parent = forest.parent[v];
+    append_all(out, id[v], " 0 ", skeleton.nodes[v].position, ' ', skeleton.nodes[v].radius, ' ',
+               parent == kNone ? Index{-1} : id[parent], '\n');
+  }
+  return out;
+}
+
+std::vector<Index> isolated_nodes(const CurveSkeleton& skeleton) {
+  std::vector<char> used(skeleton.nodes.size(), 0);
+  for (const auto& [a, b] : skeleton.edges) used[a] = used[b] = 1;
+  std::vector<Index> result;
+  for (Index v = 0; v < static_cast<Index>(used.size()); ++v)
+    if (!used[v]) result.push_back(v);
+  return result;
+}
+
+std::string format_polylines(const CurveSkeleton& skeleton) {
+  std::string out;
+  for (const Branch& branch : branches(skeleton)) {
+    append(out, branch.nodes.size());
+    for (const Index v : branch.nodes) append_all(out, ' ', skeleton.nodes[v].position);
+    out += '\n';
+  }
+  for (const Index v : isolated_nodes(skeleton)) append_all(out, "1 ", skeleton.nodes[v].position, '\n');
+  return out;
+}
+
+// <Verts> or <Lines>: where each cell ends in the list of its points.
+void append_cells(std::string& out, const char* name, const std::vector<std::vector<Index>>& cells) {
+  append_all(out, "      <", name,
+             ">\n        <DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">");
+  for (const auto& cell : cells)
+    for (const Index v : cell) append_all(out, ' ', v);
+  append(out, " </DataArray>\n        <DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">");
+  std::size_t end = 0;
+  for (const auto& cell : cells) append_all(out, ' ', end += cell.size());
+  append_all(out, " </DataArray>\n      </", name, ">\n");
+}
+
+std::string format_vtp(const CurveSkeleton& skeleton) {
+  std::vector<std::vector<Index>> dots, lines;
+  for (const Index v : isolated_nodes(skeleton)) dots.push_back({v});
+  for (Branch& branch : branches(skeleton)) lines.push_back(std::move(branch.nodes));
+  std::string out =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\">\n  "
+      "<PolyData>\n";
+  append_all(out, "    <Piece NumberOfPoints=\"", skeleton.nodes.size(), "\" NumberOfVerts=\"", dots.size(),
+             "\" NumberOfLines=\"", lines.size(), "\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n");
+  append(out,
+         "      <PointData Scalars=\"MaximumInscribedSphereRadius\">\n        <DataArray type=\"Float64\" "
+         "Name=\"MaximumInscribedSphereRadius\" format=\"ascii\">");
+  for (const SkeletonNode& node : skeleton.nodes) append_all(out, ' ', node.radius);
+  append(out,
+         " </DataArray>\n      </PointData>\n      <CellData Scalars=\"GroupIds\">\n        <DataArray "
+         "type=\"Int64\" Name=\"GroupIds\" format=\"ascii\">");
+  for (std::size_t i = 0; i < dots.size() + lines.size(); ++i) append_all(out, ' ', i);
+  append(out,
+         " </DataArray>\n      </CellData>\n      <Points>\n        <DataArray type=\"Float64\" "
+         "NumberOfComponents=\"3\" format=\"ascii\">");
+  for (const SkeletonNode& node : skeleton.nodes) append_all(out, ' ', node.position);
+  append(out, " </DataArray>\n      </Points>\n");
+  append_cells(out, "Verts", dots);
+  append_cells(out, "Lines", lines);
+  return out + "    </Piece>\n  </PolyData>\n</VTKFile>\n";
+}
+
+std::string format_graphml(const CurveSkeleton& skeleton) {
+  std::string out =
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<graphml "
+      "xmlns=\"http://graphml.graphdrawing.org/xmlns\">\n";
+  const char* const names[] = {"x", "y", "z", "radius"};
+  for (const char* name : names)
+    append_all(out, "  <key id=\"", name, "\" for=\"node\" attr.name=\"", name,
+               "\" attr.type=\"double\"/>\n");
+  append(out, "  <graph id=\"skeleton\" edgedefault=\"undirected\">\n");
+  for (std::size_t v = 0; v < skeleton.nodes.size(); ++v) {
+    const SkeletonNode& node = skeleton.nodes[v];
+    const double values[] = {node.position[0], node.position[1], node.position[2], node.radius};
+    append_all(out, "    <node id=\"", v, "\">");
+    for (int k = 0; k < 4; ++k) append_all(out, "<data key=\"", names[k], "\">", values[k], "</data>");
+    append(out, "</node>\n");
+  }
+  for (const auto& [a, b] : skeleton.edges)
+    append_all(out, "    <edge source=\"", a, "\" target=\"", b, "\"/>\n");
+  return out + "  </graph>\n</graphml>\n";
+}
+
+}  // namespace
+
+SkeletonFormat skeleton_format_of(const std::string& path) {
+  if (path == "-") return SkeletonFormat::kSkel;
+  std::string known;
+  for (const Extension& extension : kExtensions) {
+    const std::string_view text = extension.text;
+    if (path.size() > text.size() &&
+        detail::equals_ignoring_case(std::string_view(path).substr(path.size() - text.size()), text))
+      return extension.format;
+    known += " " + std::string(text);
+  }
+  throw UsageError("cannot tell the skeleton format of " + path + ": known extensions are" + known);
+}
+
+std::string format_skeleton(const CurveSkeleton& skeleton, SkeletonFormat format, const std::string& report) {
+  switch (format) {
+    case SkeletonFormat::kSkel:
+      return format_skel(skeleton);
+    case SkeletonFormat::kObj:
+      return format_obj(skeleton);
+    case SkeletonFormat::kPly:
+      return format_ply(skeleton);
+    case SkeletonFormat::kJson:
+      return format_json(skeleton, report);
+    case SkeletonFormat::kSwc:
+      return format_swc(skeleton);
+    case SkeletonFormat::kVtp:
+      return format_vtp(skeleton);
+    case SkeletonFormat::kGraphml:
+      return format_graphml(skeleton);
+    default:
+      return format_polylines(skeleton);
+  }
+}
+
+std::vector<std::string> losses_of_format(const CurveSkeleton& skeleton, SkeletonFormat format) {
+  if (format != SkeletonFormat::kSwc) return {};
+  const std::size_t cuts = span(skeleton).cut.size();
+  if (cuts == 0) return {};
+  return {"SWC holds trees only: " + std::to_string(cuts) +
+          (cuts == 1 ? " loop was cut" : " loops were cut") + ", the cut edges are comments"};
+}
+
+void write_skeleton(const std::string& path, const CurveSkeleton& skeleton, const std::string& report) {
+  write_file_atomically(path, format_skeleton(skeleton, skeleton_format_of(path), report));
+}
+
+}  // namespace mspskel

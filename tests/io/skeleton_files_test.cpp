@@ -1,0 +1,199 @@
+// Skeletons read back exactly from the formats that are read, and the others hold what their readers expect.
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "io/temporary_folder.h"
+#include "mspskel/base/error.h"
+#include "mspskel/io/read_skeleton.h"
+#include "mspskel/io/write_skeleton.h"
+
+using namespace mspskel;
+using Catch::Contains;
+using mspskel::test::TemporaryFolder;
+
+namespace {
+
+// A triangle with a tail, and a node alone: joints, a leaf, a loop, two components.
+CurveSkeleton example() {
+  CurveSkeleton skeleton;
+  for (int i = 0; i < 6; ++i) {
+    SkeletonNode node;
+    node.position = Vector3(i / 3.0, -0.1 * i * i, 1e-20 * i);
+    node.radius = 1 / (1.0 + i);
+    node.area = i;
+    node.perimeter = 2.5 * i;
+    node.slice_error = i / 7.0;
+    skeleton.nodes.push_back(node);
+  }
+  skeleton.edges = {{0, 1}, {0, 2}, {1, 2}, {2, 3}, {3, 4}};
+  skeleton.node_of_vertex = {0, 5, kNone, 3, 3};
+  return skeleton;
+}
+void check_graph(const CurveSkeleton& a, const CurveSkeleton& b, bool radius) {
+  REQUIRE(a.nodes.size() == b.nodes.size());
+  CHECK(a.edges == b.edges);
+  for (std::size_t v = 0; v < a.nodes.size(); ++v) {
+    CHECK(a.nodes[v].position == b.nodes[v].position);
+    if (radius) CHECK(a.nodes[v].radius == b.nodes[v].radius);
+  }
+}
+void check_refused(SkeletonFormat format, const std::string& text, const std::string& what) {
+  INFO(text);
+  CHECK_THROWS_AS(read_skeleton(std::string_view(text), format), ReadError);
+  CHECK_THROWS_WITH(read_skeleton(std::string_view(text), format), Contains(what));
+}
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+}  // namespace
+
+TEST_CASE("skeletons go through files and back") {
+  const TemporaryFolder folder;
+  const CurveSkeleton skeleton = example();
+  for (const char* name : {"a.skel", "a.obj", "a.json", "B.SKEL"}) {
+    write_skeleton(folder.path(name), skeleton, R"({"seconds": 1.5})");
+    check_graph(read_skeleton(folder.path(name)), skeleton, std::string(name) != "a.obj");
+  }
+  const CurveSkeleton full = read_skeleton(folder.path("a.json"));
+  CHECK(full.node_of_vertex == skeleton.node_of_vertex);
+  for (std::size_t v = 0; v < 6; ++v) {
+    CHECK(full.nodes[v].area == skeleton.nodes[v].area);
+    CHECK(full.nodes[v].perimeter == skeleton.nodes[v].perimeter);
+    CHECK(full.nodes[v].slice_error == skeleton.nodes[v].slice_error);
+  }
+  check_graph(
+      read_skeleton(std::string_view(format_skeleton({}, SkeletonFormat::kSkel)), SkeletonFormat::kSkel), {},
+      true);
+}
+
+TEST_CASE("the extension picks the format; an unknown one lists the known") {
+  CHECK(skeleton_format_of("-") == SkeletonFormat::kSkel);
+  CHECK(skeleton_format_of("x/a.b.VTP") == SkeletonFormat::kVtp);
+  CHECK(skeleton_format_of("a.polylines.txt") == SkeletonFormat::kPolylines);
+  CHECK_THROWS_AS(skeleton_format_of("a.txt"), UsageError);
+  CHECK_THROWS_WITH(skeleton_format_of("skel"),
+                    Contains(".skel .obj .ply .json .swc .vtp .graphml .cgal .polylines.txt"));
+  CHECK_THROWS_AS(read_skeleton("a.vtp"), UsageError);
+}
+
+TEST_CASE(".skel: header, count, then a line a node with its neighbours") {
+  const auto lines = lines_of(format_skeleton(example(), SkeletonFormat::kSkel));
+  REQUIRE(lines.size() == 8);
+  CHECK(lines[0] == "ID Cx Cy Cz RADIUS #NEIGHBORS NEIGHBORS_LIST");
+  CHECK(lines[1] == "6");
+  CHECK(lines[2] == "0 0 -0 0 1 2 1 2");
+  CHECK_THAT(lines[4], Catch::StartsWith("2 ") && Catch::EndsWith(" 3 0 1 3"));
+  CHECK_THAT(lines[7], Catch::EndsWith(" 0"));
+}
+
+TEST_CASE(".json: nodes, edges, branches, surface map and report") {
+  const CurveSkeleton skeleton = example();
+  const auto json =
+      nlohmann::json::parse(format_skeleton(skeleton, SkeletonFormat::kJson, R"({"a": [1, 2]})"));
+  CHECK(json["nodes"].size() == 6);
+  CHECK(json["nodes"][3]["id"] == 3);
+  CHECK(json["nodes"][3]["radius"] == 0.25);
+  CHECK(json["edges"][3] == nlohmann::json({{"source", 2}, {"target", 3}}));
+  CHECK(json["branches"].size() == branches(skeleton).size());
+  CHECK(json["node_of_vertex"] == nlohmann::json(skeleton.node_of_vertex));
+  CHECK(json["report"]["a"][1] == 2);
+  CHECK_FALSE(nlohmann::json::parse(format_skeleton(skeleton, SkeletonFormat::kJson)).contains("report"));
+  CHECK_THROWS_AS(format_skeleton(skeleton, SkeletonFormat::kJson, "{"), UsageError);
+}
+
+TEST_CASE(".swc: a forest, parents first, each cut edge a comment") {
+  const CurveSkeleton skeleton = example();
+  int nodes = 0, roots = 0, cuts = 0;
+  for (const std::string& line : lines_of(format_skeleton(skeleton, SkeletonFormat::kSwc))) {
+    if (line[0] == '#') {
+      cuts += line.find("cut edge") != std::string::npos;
+      continue;
+    }
+    std::istringstream in(line);
+    int id = 0, type = -1, parent = 0;
+    double x, y, z, radius;
+    REQUIRE(in >> id >> type >> x >> y >> z >> radius >> parent);
+    CHECK(id == ++nodes);
+    CHECK(type == 0);
+    CHECK((parent == -1 || (parent >= 1 && parent < id)));
+    roots += parent == -1;
+  }
+  const GraphCounts counts = count_graph(skeleton);
+  CHECK(nodes == counts.nodes);
+  CHECK(roots == counts.components);
+  CHECK(cuts == counts.cycles);
+  CHECK_THAT(losses_of_format(skeleton, SkeletonFormat::kSwc).at(0), Contains("1 loop was cut"));
+  CHECK(losses_of_format(skeleton, SkeletonFormat::kVtp).empty());
+}
+
+TEST_CASE(".ply, .vtp, .graphml and polylines count their elements right") {
+  const CurveSkeleton skeleton = example();
+  const std::string ply = format_skeleton(skeleton, SkeletonFormat::kPly);
+  CHECK_THAT(ply, Contains("element vertex 6\n") && Contains("element edge 5\n") &&
+                      Contains("property double radius\n"));
+  CHECK(lines_of(ply.substr(ply.find("end_header\n") + 11)).size() == 11);
+
+  const std::string vtp = format_skeleton(skeleton, SkeletonFormat::kVtp);
+  const auto arcs = branches(skeleton);
+  CHECK_THAT(vtp, Contains("NumberOfPoints=\"6\" NumberOfVerts=\"1\" NumberOfLines=\"" +
+                           std::to_string(arcs.size()) + "\""));
+  CHECK_THAT(vtp, Contains("MaximumInscribedSphereRadius") && Contains("GroupIds"));
+
+  const std::string graphml = format_skeleton(skeleton, SkeletonFormat::kGraphml);
+  const auto count = [](const std::string& text, const std::string& part) {
+    std::size_t n = 0;
+    for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; ++at) ++n;
+    return n;
+  };
+  CHECK(count(graphml, "<node ") == 6);
+  CHECK(count(graphml, "<edge ") == 5);
+
+  std::size_t points = 0;
+  const auto lines = lines_of(format_skeleton(skeleton, SkeletonFormat::kPolylines));
+  CHECK(lines.size() == arcs.size() + 1);
+  for (const std::string& line : lines) {
+    std::istringstream in(line);
+    std::size_t n = 0, numbers = 0;
+    REQUIRE(in >> n);
+    for (double x; in >> x;) ++numbers;
+    CHECK(numbers == 3 * n);
+    points += n;
+  }
+  CHECK(points == 5 + arcs.size() + 1);  // edges, one more point a branch, the node alone
+}
+
+TEST_CASE("malformed skeletons are refused with their line") {
+  const std::string head = "ID Cx Cy Cz RADIUS #NEIGHBORS NEIGHBORS_LIST\n";
+  check_refused(SkeletonFormat::kSkel, "1\n0 0 0 0 1 0\n", "line 1");
+  check_refused(SkeletonFormat::kSkel, head + "9999999\n", "9999999 nodes");
+  check_refused(SkeletonFormat::kSkel, head + "1\n1 0 0 0 1 0\n", "line 3: expected node 0");
+  check_refused(SkeletonFormat::kSkel, head + "1\n0 0 0 0 1 1 1\n", "line 3: node index 1 is out of range");
+  check_refused(SkeletonFormat::kSkel, head + "1\n0 0 0 0 1 1 0\n", "line 3: node 0 has an edge to itself");
+  check_refused(SkeletonFormat::kSkel, head + "1\n0 0 0 nan 1 0\n", "line 3");
+  check_refused(SkeletonFormat::kSkel, head + "1\n0 0 0 0 1 7\n0 0 0 0 0 0 0 0", "");
+  check_refused(SkeletonFormat::kObj, "v 0 0 0\nv 1 0\n", "line 2");
+  check_refused(SkeletonFormat::kObj, "v 0 0 0\nl 1 2\n", "line 2: node index 1 is out of range");
+  check_refused(SkeletonFormat::kObj, "v 0 0 0\nl 0 1\n", "line 2: node index 0");
+  check_refused(SkeletonFormat::kJson, "{\"nodes\": [}", "parse error");
+  check_refused(SkeletonFormat::kJson, "[]", "not an object");
+  check_refused(SkeletonFormat::kJson, "{\"nodes\": []}", "edges");
+  check_refused(SkeletonFormat::kJson, R"({"nodes": [{"position": [0, 0]}], "edges": []})",
+                "three coordinates");
+  check_refused(SkeletonFormat::kJson, R"({"nodes": [{"position": [0, 0, "x"]}], "edges": []})",
+                "finite number");
+  check_refused(SkeletonFormat::kJson, R"({"nodes": [], "edges": [{"source": 0, "target": 1}]})",
+                "out of range");
+  const TemporaryFolder folder;
+  CHECK_THROWS_WITH(read_skeleton(folder.write("a.skel", "x")), Contains("a.skel: line 1"));
+}
+
+TEST_CASE(".obj polylines and negative indices; other records are skipped") {
+  const std::string text = "# c\nv 0 0 0\nv 1 0 0 # c\no x\nv 2 0 0\nl 1 2 3\nl -1 -2\nf 1 2 3\n";
+  const CurveSkeleton skeleton = read_skeleton(std::string_view(text), SkeletonFormat::kObj);
+  CHECK(skeleton.edges == std::vector<std::array<Index, 2>>{{0, 1}, {1, 2}});
+}
