@@ -1,0 +1,23 @@
+// The models that the benchmarks run on.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mspskel/mesh/polygon_soup.h"
+#include "mspskel/mesh/surface_snapshot.h"
+
+namespace mspskel::bench {
+
+struct Model {
+  std::string name;
+  std::string bytes;  // of its OFF file
+  PolygonSoup soup;
+  SurfaceSnapshot surface;
+};
+
+// horse, hand and armadillo from the folder models/ of the environment's MSPSKEL_MESHES or of
+// ../shared/meshes beside the sources; where they are absent, three samples of like size. Loaded once.
+const std::vector<Model>& models();
+
+}  // namespace mspskel::bench

@@ -1,0 +1,88 @@
+// mspskel check MESH SKELETON: is this the skeleton of that mesh?
+#include <cstdio>
+#include <iostream>
+
+#include "command_line.h"
+#include "commands.h"
+#include "files.h"
+#include "mspskel/base/error.h"
+#include "mspskel/graph/check_skeleton.h"
+#include "mspskel/io/read_mesh.h"
+#include "mspskel/mesh/surface_snapshot.h"
+#include "report.h"
+
+namespace mspskel::cli {
+namespace {
+
+Json checks_json(const SkeletonChecks& checks) {
+  return Json{{"topology", checks.topology},
+              {"b0", checks.b0},
+              {"b1", checks.b1},
+              {"components", checks.components},
+              {"genus", checks.genus},
+              {"contained", checks.contained},
+              {"inside", checks.inside},
+              {"outside_nodes", checks.outside_nodes},
+              {"crossing_edges", checks.crossing_edges},
+              {"nodes", checks.nodes},
+              {"edges", checks.edges},
+              {"leaves", checks.leaves},
+              {"joints", checks.joints},
+              {"spurs", checks.spurs},
+              {"length", checks.length},
+              {"longest_edge", checks.longest_edge},
+              {"off_centre_mean", checks.off_centre_mean},
+              {"off_centre_p90", checks.off_centre_p90},
+              {"cover_mean", checks.cover_mean},
+              {"cover_p95", checks.cover_p95},
+              {"bend", checks.bend},
+              {"radius_error", checks.radius_error},
+              {"diagonal", checks.diagonal}};
+}
+
+void print(const SkeletonChecks& c) {
+  std::printf("topology     %s: %d piece%s and %d cycle%s on a surface of %d component%s and genus %d\n",
+              c.topology ? "right" : "WRONG", c.b0, c.b0 == 1 ? "" : "s", c.b1, c.b1 == 1 ? "" : "s",
+              c.components, c.components == 1 ? "" : "s", c.genus);
+  std::printf("inside       %.4g %% of the length; %d nodes outside, %d edges through the surface\n",
+              100 * c.inside, c.outside_nodes, c.crossing_edges);
+  std::printf("off centre   mean %.4f, 90th percentile %.4f (0: centred, 1: at the wall)\n",
+              c.off_centre_mean, c.off_centre_p90);
+  std::printf("cover        mean %.4f, 95th percentile %.4f of the diagonal\n", c.cover_mean, c.cover_p95);
+  std::printf("graph        %d nodes, %d edges, %d leaves, %d joints, %d spurs\n", c.nodes, c.edges, c.leaves,
+              c.joints, c.spurs);
+  std::printf("arcs         length %.4f, longest edge %.4f of the diagonal, bend %.2f degrees\n", c.length,
+              c.longest_edge, c.bend);
+  std::printf("radius       off by %.3g of the diagonal at most\n", c.radius_error);
+}
+
+}  // namespace
+
+int check_command(const std::vector<std::string>& arguments) {
+  std::string mesh_path, skeleton_path, json_path;
+  double least_inside = 1;
+  bool quiet = false;
+  Execution execution;
+  CommandLine line("check MESH SKELETON [options]",
+                   "Verifies a skeleton against its mesh: pieces, cycles, containment, centredness, radius.",
+                   "Exit status 0 if the topology is right and enough of the skeleton inside, 5 if not.\n");
+  line.argument("MESH", mesh_path, "mesh (.off .obj .ply .stl), - for stdin")->required();
+  line.argument("SKELETON", skeleton_path, "skeleton (.skel .obj .ply .json)")->required();
+  line.number("--least-inside", least_inside, {0, 1}, "share of the length that must be inside");
+  line.text("--json", json_path, "FILE", "the figures as JSON; - for stdout, in place of the text");
+  line.flag("-q,--quiet", quiet, "no text, only the exit status");
+  line.number("-t,--threads", execution.threads, {0, 4096}, "0: as many as the machine has");
+  if (!line.parse(arguments)) return 0;
+
+  const SurfaceSnapshot surface = make_snapshot(read_mesh(mesh_path));
+  const SkeletonChecks checks =
+      check_skeleton(surface, BoundingVolumeHierarchy(surface), read_skeleton(skeleton_path), execution);
+  const bool inside = least_inside < 1 ? checks.inside >= least_inside : checks.contained;
+  if (!json_path.empty()) write_file(json_path, report_text(checks_json(checks)));
+  if (!quiet && json_path != "-") print(checks);
+  if (!checks.topology) throw NoSkeletonError("the skeleton's topology is not the mesh's");
+  if (!inside) throw NoSkeletonError("the skeleton leaves the solid");
+  return 0;
+}
+
+}  // namespace mspskel::cli

@@ -1,0 +1,70 @@
+// mspskel IN [OUT...]: from a mesh file to skeleton files.
+#include <chrono>
+
+#include "cancellation.h"
+#include "commands.h"
+#include "extract_settings.h"
+#include "files.h"
+#include "mspskel/base/error.h"
+#include "mspskel/io/read_mesh.h"
+#include "report.h"
+#include "stage_files.h"
+
+namespace mspskel::cli {
+namespace {
+
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+void extract(const ExtractSettings& given, const Cancellation& cancellation, Terminal& terminal) {
+  ExtractSettings settings = given;
+  settings.options.execution.progress = [&](const char* stage, double fraction) {
+    terminal.progress(stage, fraction);
+    return !cancellation.requested();
+  };
+  const Stopwatch total;
+  ProgramSeconds seconds;
+  // A wrong extension or folder shows before the work, not after it.
+  for (const std::string& output : settings.outputs) check_skeleton_path(output);
+
+  const DefaultMesh mesh = read_mesh(settings.input);
+  seconds.read = total.seconds();
+  cancellation.throw_if_requested();
+  const ExtractResult result = extract_skeleton(mesh, settings.options);
+  cancellation.throw_if_requested();
+
+  const Stopwatch writing;
+  for (const std::string& output : settings.outputs) write_skeleton(output, result.skeleton);
+  if (!settings.stages.empty()) write_stage_files(settings.stages, result);
+  seconds.write = writing.seconds();
+  seconds.total = total.seconds();
+  terminal.clear_progress();
+  for (const std::string& warning : result.warnings) terminal.warning(warning);
+  const Json report = make_report(settings, result, seconds);
+  terminal.note(report["counts"].dump() + "\n" + report["seconds"].dump());
+  if (!settings.report.empty()) write_file(settings.report, report_text(report));
+}
+
+}  // namespace
+
+int extract_command(const std::vector<std::string>& arguments) {
+  ExtractSettings settings;
+  if (!parse_extract_settings(arguments, settings)) return 0;
+  const Cancellation cancellation(settings.time_limit);
+  Terminal terminal(settings.verbosity());
+  try {
+    extract(settings, cancellation, terminal);
+  } catch (const Cancelled&) {
+    throw Error(ErrorKind::kCancelled, cancellation.reason());
+  }
+  return 0;
+}
+
+}  // namespace mspskel::cli

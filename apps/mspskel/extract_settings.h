@@ -1,0 +1,33 @@
+// What the default command was asked to do.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "command_line.h"
+#include "mspskel/extract_skeleton.h"
+#include "terminal.h"
+
+namespace mspskel::cli {
+
+struct ExtractSettings {
+  std::string input;
+  std::vector<std::string> outputs;
+  std::string report;  // empty: none
+  std::string stages;  // folder; empty: none
+  double time_limit = 0;
+  int threads = 0;
+  bool quiet = false;
+  bool verbose = false;
+  ExtractOptions options;
+  Json values;  // of all options, for the report
+
+  Verbosity verbosity() const {
+    return quiet ? Verbosity::kQuiet : verbose ? Verbosity::kVerbose : Verbosity::kNormal;
+  }
+};
+
+// False if help or the version was asked for and has been printed. Throws UsageError.
+bool parse_extract_settings(const std::vector<std::string>& arguments, ExtractSettings& settings);
+
+}  // namespace mspskel::cli

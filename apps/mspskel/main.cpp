@@ -1,0 +1,46 @@
+// mspskel: curve skeletons on the command line.
+//
+// The first word picks the command here, and not in CLI11, which would take `check a b` for a mesh named
+// "check". A file of such a name is reached as ./check.
+#include <exception>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "commands.h"
+#include "mspskel/base/error.h"
+#include "terminal.h"
+
+namespace mspskel::cli {
+namespace {
+
+int run(const std::vector<std::string>& words) {
+  using Command = int (*)(const std::vector<std::string>&);
+  const std::pair<const char*, Command> commands[] = {
+      {"sample", sample_command}, {"render", render_command}, {"check", check_command}};
+  for (const auto& [name, command] : commands) {
+    if (!words.empty() && words.front() == name) return command({words.begin() + 1, words.end()});
+  }
+  return extract_command(words);
+}
+
+int run_and_report(const std::vector<std::string>& words) {
+  try {
+    return run(words);
+  } catch (const Error& error) {
+    Terminal().error(error.what());
+    return static_cast<int>(error.kind());
+  } catch (const std::bad_alloc&) {
+    Terminal().error("not enough memory");
+  } catch (const std::exception& error) {
+    Terminal().error(error.what());
+  }
+  return static_cast<int>(ErrorKind::kNoSkeleton);
+}
+
+}  // namespace
+}  // namespace mspskel::cli
+
+int main(int argc, char** argv) {
+  return mspskel::cli::run_and_report(std::vector<std::string>(argv + 1, argv + argc));
+}

@@ -1,0 +1,84 @@
+#include "report.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+
+namespace mspskel::cli {
+namespace {
+
+std::int64_t peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return std::int64_t{usage.ru_maxrss} * 1024;  // Linux counts in kilobytes
+}
+
+double refined_share(const VertexSlices& slices) {
+  if (slices.refined.empty()) return 0;
+  const auto refined = std::count(slices.refined.begin(), slices.refined.end(), 1);
+  return static_cast<double>(refined) / static_cast<double>(slices.refined.size());
+}
+
+Json input_facts(const ExtractSettings& settings, const ExtractResult& result) {
+  const SurfaceSnapshot& surface = result.surface;
+  Index genus = 0;
+  for (const Index g : result.cocycles.genus) genus += g;
+  return {{"file", settings.input},
+          {"vertices", surface.vertex_count()},
+          {"faces", surface.face_count()},
+          {"components", surface.component_count},
+          {"genus", genus}};
+}
+
+Json work_counts(const ExtractResult& result) {
+  const CollapseCounts& collapse = result.collapsed.counts;
+  return {{"slices", result.slices.slices},
+          {"steps", result.slices.steps},
+          {"refined_share", refined_share(result.slices)},
+          {"without_slice", result.skeleton_mesh.without_slice},
+          {"collapses", collapse.collapses},
+          {"refusals",
+           {{"labels", collapse.refused_labels},
+            {"loop", collapse.refused_loop},
+            {"skeleton_edge", collapse.listed}}},
+          {"deleted_faces", collapse.deleted_faces + collapse.thinned_faces},
+          {"deleted_edges", collapse.deleted_edges},
+          {"pruned_branches", result.refinement.pruned},
+          {"merged_joints", result.refinement.joints_merged}};
+}
+
+Json stage_seconds(const ExtractResult& result, const ProgramSeconds& program) {
+  Json seconds{{"total", program.total}, {"read", program.read}};
+  for (const auto& [stage, time] : result.seconds) {
+    if (!seconds.contains(stage)) seconds[stage] = 0.0;
+    seconds[stage] = seconds[stage].get<double>() + time;  // a stage may run twice
+  }
+  seconds["write"] = program.write;
+  return seconds;
+}
+
+}  // namespace
+
+Json make_report(const ExtractSettings& settings, const ExtractResult& result,
+                 const ProgramSeconds& seconds) {
+  const GraphCounts graph = count_graph(result.skeleton);
+  Json report;
+  report["input"] = input_facts(settings, result);
+  report["options"] = settings.values;
+  report["counts"] = work_counts(result);
+  report["seconds"] = stage_seconds(result, seconds);
+  report["peak_memory_bytes"] = peak_memory_bytes();
+  report["skeleton"] = {{"nodes", graph.nodes},   {"edges", graph.edges},   {"components", graph.components},
+                        {"cycles", graph.cycles}, {"leaves", graph.leaves}, {"length", graph.length}};
+  const bool kept =
+      graph.components == report["input"]["components"] && graph.cycles == report["input"]["genus"];
+  report["checks"] = {{"b0", graph.components}, {"b1", graph.cycles}, {"topology", kept ? "kept" : "failed"}};
+  report["warnings"] = result.warnings;
+  return report;
+}
+
+std::string report_text(const Json& report) {
+  return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace mspskel::cli

@@ -1,0 +1,21 @@
+// What lies between the stages, for people who study them: --stages DIR.
+#pragma once
+
+#include <string>
+
+#include "mspskel/extract_skeleton.h"
+
+namespace mspskel::cli {
+
+// Writes into the folder, which is made where absent:
+//   msp.csv            one line a vertex; lengths and positions in model units, errors normalised to [0, 1].
+//                      A vertex without a slice has MSP 0, error 1, and zeros for the rest
+//   msp_initial.ply    the mesh coloured by MSP before cone refinement, blue (least) to red (most)
+//   msp.ply            by MSP after it
+//   error_initial.ply  by slice error before, blue (0) to red (1)
+//   error.ply          by slice error after
+//   skeleton_mesh.ply  the mesh with every vertex at its skeletal point
+// Throws WriteError.
+void write_stage_files(const std::string& folder, const ExtractResult& result);
+
+}  // namespace mspskel::cli

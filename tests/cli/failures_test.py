@@ -1,0 +1,109 @@
+"""Every way to fail has its exit status, names the culprit, and leaves no file."""
+import os
+import signal
+import subprocess
+import time
+import unittest
+
+from program import CANCELLED, MESH, PROGRAM, READ, TETRAHEDRON, WRITE, ProgramTest
+
+
+class Reading(ProgramTest):
+    def test_absent_file(self):
+        self.assertIn("absent.off", self.fail_with(READ, "absent.off", "a.skel"))
+
+    def test_folder(self):
+        (self.folder / "folder.off").mkdir()
+        self.fail_with(READ, "folder.off", "a.skel")
+
+    def test_empty_file(self):
+        self.fail_with(READ, self.write("empty.off", ""), "a.skel")
+
+    def test_garbage_names_file_and_line(self):
+        message = self.fail_with(READ, self.write("bad.off", TETRAHEDRON.replace("3 1 2 3", "3 1 2 x")), "a.skel")
+        self.assertIn("bad.off", message)
+        self.assertIn("9", message)
+
+    def test_index_out_of_range(self):
+        self.fail_with(READ, self.write("bad.off", TETRAHEDRON.replace("3 1 2 3", "3 1 2 4")), "a.skel")
+
+    def test_more_announced_than_there_is(self):
+        self.fail_with(READ, self.write("bad.off", TETRAHEDRON.replace("4 4 0", "4 2000000000 0")), "a.skel")
+
+    def test_absent_mesh_or_skeleton_of_the_other_commands(self):
+        self.write("t.off", TETRAHEDRON)
+        self.fail_with(READ, "render", "absent.off", "a.png")
+        self.fail_with(READ, "render", "t.off", "absent.skel", "a.png")
+        self.fail_with(READ, "check", "absent.off", "absent.skel")
+        self.fail_with(READ, "check", "t.off", "absent.skel")
+
+
+class Meshes(ProgramTest):
+    def test_open_mesh(self):
+        text = TETRAHEDRON.replace("4 4 0", "4 3 0").replace("3 2 0 3\n", "")
+        message = self.fail_with(MESH, self.write("open.off", text), "a.skel")
+        self.assertRegex(message, r"closed|open|boundary")
+
+    def test_edge_with_three_faces(self):
+        text = TETRAHEDRON.replace("4 4 0", "5 5 0").replace("0 0 1\n", "0 0 1\n1 1 1\n") + "3 0 1 4\n"
+        self.fail_with(MESH, self.write("fin.off", text), "a.skel")
+
+    def test_no_faces(self):
+        self.fail_with(MESH, self.write("points.off", "OFF\n1 0 0\n0 0 0\n"), "a.skel")
+
+
+class Writing(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.write("t.off", TETRAHEDRON)
+
+    def test_absent_folder(self):
+        self.assertIn("absent", self.fail_with(WRITE, "t.off", "absent/a.skel"))
+
+    def test_folder_in_place_of_the_file(self):
+        (self.folder / "a.skel").mkdir()
+        self.fail_with(WRITE, "t.off", "a.skel")
+
+    def test_picture_report_and_stages(self):
+        self.fail_with(WRITE, "render", "t.off", "absent/a.png")
+        self.fail_with(WRITE, "sample", "sphere", "absent/a.off")
+        self.fail_with(WRITE, "t.off", "-q", "a.skel", "--report", "absent/a.json")
+        self.fail_with(WRITE, "t.off", "-q", "a.skel", "--stages", "t.off/stages")
+
+    @unittest.skipUnless(os.path.exists("/dev/full"), "no /dev/full here")
+    def test_full_disk(self):
+        with open("/dev/full", "wb") as full:
+            result = subprocess.run([PROGRAM, "sample", "sphere", "-"], stdout=full, stderr=subprocess.PIPE,
+                                    cwd=self.folder)
+        self.assertEqual(result.returncode, WRITE, result.stderr)
+
+
+class Ending(ProgramTest):
+    # Large enough for seconds of work.
+    SLOW = ["--mode", "thesis", "--slices", "400", "--cone-directions", "200", "--threads", "1"]
+
+    def test_time_limit(self):
+        mesh = self.sample("torus", 20000)
+        start = time.monotonic()
+        message = self.fail_with(CANCELLED, mesh, "a.skel", *self.SLOW, "--time-limit", "0.3", "--report", "r.json")
+        self.assertIn("time limit", message)
+        self.assertLess(time.monotonic() - start, 30)
+
+    def test_interrupt_leaves_an_older_result_as_it_was(self):
+        mesh = self.sample("torus", 20000)
+        self.write("a.skel", "older")
+        before = self.files()
+        for number in [signal.SIGINT, signal.SIGTERM]:
+            process = subprocess.Popen([PROGRAM, mesh, "a.skel", *self.SLOW], cwd=self.folder,
+                                       stderr=subprocess.PIPE)
+            time.sleep(0.5)
+            process.send_signal(number)
+            _, message = process.communicate(timeout=60)
+            self.assertEqual(process.returncode, CANCELLED, message)
+            self.assertIn(b"interrupted", message)
+            self.assertEqual(self.files(), before)
+            self.assertEqual((self.folder / "a.skel").read_text(), "older")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,9 @@
+# Tests that run the program itself; each *_test.py is a unittest module.
+file(GLOB cli_tests CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/cli/*_test.py)
+foreach(test ${cli_tests})
+  get_filename_component(name ${test} NAME_WE)
+  string(REPLACE "_test" "" name ${name})
+  string(REPLACE "_" " " name ${name})
+  add_test(NAME "cli: ${name}" COMMAND Python3::Interpreter -B ${test})
+  set_tests_properties("cli: ${name}" PROPERTIES ENVIRONMENT MSPSKEL_PROGRAM=$<TARGET_FILE:mspskel_cli>)
+endforeach()
