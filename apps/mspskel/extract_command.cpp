@@ -1,5 +1,10 @@
 // mspskel IN [OUT...]: from a mesh file to skeleton files.
+#include <unistd.h>
+
+#include <cerrno>
 #include <chrono>
+#include <cstring>
+#include <filesystem>
 
 #include "cancellation.h"
 #include "commands.h"
@@ -23,6 +28,24 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+// A file can be made there, or the folder can, as far as one can tell beforehand.
+void check_writable(const std::filesystem::path& path) {
+  if (path == "-") return;
+  std::error_code ignored;
+  std::filesystem::path folder = std::filesystem::absolute(path, ignored).parent_path();
+  if (std::filesystem::is_directory(path, ignored)) throw WriteError(path.string() + " is a folder");
+  if (access(folder.c_str(), W_OK | X_OK) != 0)
+    throw WriteError("cannot write " + path.string() + ": " + std::strerror(errno));
+}
+
+// A wrong extension or folder shows before the work, not after it.
+void check_outputs(const ExtractSettings& settings) {
+  for (const std::string& output : settings.outputs) skeleton_format_of(output);
+  for (const std::string& output : settings.outputs) check_writable(output);
+  if (!settings.report.empty()) check_writable(settings.report);
+  if (!settings.stages.empty()) make_stage_folder(settings.stages);
+}
+
 void extract(const ExtractSettings& given, const Cancellation& cancellation, Terminal& terminal) {
   ExtractSettings settings = given;
   settings.options.execution.progress = [&](const char* stage, double fraction) {
@@ -31,8 +54,7 @@ void extract(const ExtractSettings& given, const Cancellation& cancellation, Ter
   };
   const Stopwatch total;
   ProgramSeconds seconds;
-  // A wrong extension or folder shows before the work, not after it.
-  for (const std::string& output : settings.outputs) check_skeleton_path(output);
+  check_outputs(settings);
 
   const DefaultMesh mesh = read_mesh(settings.input);
   seconds.read = total.seconds();

@@ -42,12 +42,10 @@ void write_file(const std::string& path, const std::string& bytes) {
   }
 }
 
-void check_skeleton_path(const std::string& path) {
+void skeleton_format_of(const std::string& path) {
   if (path == "-") return;
   if (extension(path) != ".skel" && extension(path) != ".obj")
     throw UsageError(path + ": skeletons are written as .skel or .obj");
-  const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
-  if (access(folder.c_str(), W_OK) != 0) throw WriteError("cannot write into " + folder.string());
 }
 
 void write_skeleton(const std::string& path, const CurveSkeleton& skeleton) {

@@ -84,10 +84,13 @@ std::vector<Color> colors(const std::vector<double>& values, double low, double 
 
 }  // namespace
 
-void write_stage_files(const std::string& folder, const ExtractResult& result) {
+void make_stage_folder(const std::string& folder) {
   std::error_code failure;
   std::filesystem::create_directories(folder, failure);
   if (failure) throw WriteError(folder + ": " + failure.message());
+}
+
+void write_stage_files(const std::string& folder, const ExtractResult& result) {
   const auto write = [&](const char* name, const std::string& bytes) {
     write_file((std::filesystem::path(folder) / name).string(), bytes);
   };

@@ -7,7 +7,10 @@
 
 namespace mspskel::cli {
 
-// Writes into the folder, which is made where absent:
+// Makes the folder where absent. Throws WriteError.
+void make_stage_folder(const std::string& folder);
+
+// Writes into the folder:
 //   msp.csv            one line a vertex; lengths and positions in model units, errors normalised to [0, 1].
 //                      A vertex without a slice has MSP 0, error 1, and zeros for the rest
 //   msp_initial.ply    the mesh coloured by MSP before cone refinement, blue (least) to red (most)
