@@ -143,20 +143,25 @@ class SolidHierarchies {
   std::vector<BoundingVolumeHierarchy> own_;
 };
 
-// Per node; where it is not given, the component nearest to the smallest node of its piece: the way there
-// stays inside, if the piece is inside.
+// Per node. Nodes that no vertex maps to have the component of their piece; where nothing is given, a piece
+// has the component nearest to its first node: the way there stays inside, if the piece is inside.
 inline std::vector<Index> components_of_pieces(const SurfaceSnapshot& surface,
                                                const BoundingVolumeHierarchy& hierarchy,
                                                const PolylineGraph& graph, const std::vector<Index>& piece) {
-  if (!graph.component.empty()) return graph.component;
+  std::vector<Index> of_piece(piece.size(), kNone);
+  for (std::size_t v = 0; v < graph.component.size(); ++v) {
+    Index& known = of_piece[static_cast<std::size_t>(piece[v])];
+    if (known == kNone) known = graph.component[v];
+  }
   std::vector<Index> component(piece.size(), kNone);
   for (std::size_t v = 0; v < piece.size(); ++v) {
-    if (piece[v] == static_cast<Index>(v)) {
-      const Index face = hierarchy.closest(graph.position[v]).face;
-      component[v] = face == kNone ? kNone : surface.component[surface.origin[3 * face]];
-    } else {
-      component[v] = component[static_cast<std::size_t>(piece[v])];
+    const auto root = static_cast<std::size_t>(piece[v]);
+    if (of_piece[root] == kNone) {
+      const Index face = hierarchy.closest(graph.position[root]).face;
+      if (face != kNone) of_piece[root] = surface.component[surface.origin[3 * face]];
     }
+    const bool given = !graph.component.empty() && graph.component[v] != kNone;
+    component[v] = given ? graph.component[v] : of_piece[root];
   }
   return component;
 }
