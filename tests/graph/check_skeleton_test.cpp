@@ -131,6 +131,13 @@ TEST_CASE("skeletons that make no sense are refused by name") {
   CHECK_THROWS_WITH(check_skeleton(s, tree, k), Catch::Contains("node 1"));
 }
 
+TEST_CASE("a skeleton far beyond the model is judged, not a memory hog") {
+  const SkeletonChecks far = check(test::cube(), chain({{0, 0, 0}, {1e9, 1e8, 1e7}}, 1));
+  CHECK(far.crossing_edges == 1);
+  CHECK(far.outside_nodes == 1);
+  CHECK(far.inside < 0.01);
+}
+
 TEST_CASE("radii are distances in model units") {
   const SurfaceSnapshot s = make_snapshot(test::scaled(test::cube(), 10));
   const BoundingVolumeHierarchy tree(s);

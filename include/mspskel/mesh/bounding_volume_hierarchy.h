@@ -41,7 +41,7 @@ class BoundingVolumeHierarchy {
   Index face_count() const { return face_count_; }
 
   // The surface point nearest to p, if it is nearer than `bound`. A tight bound, such as a neighbour's answer
-  // plus the way to the neighbour, saves time.
+  // plus the way to the neighbour, saves time. Beyond 10^18 model extents nothing is found.
   ClosestPoint closest(const Vector3& p, double bound = std::numeric_limits<double>::infinity()) const;
 
   // Distance from p to the surface.

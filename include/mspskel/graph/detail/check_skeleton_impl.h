@@ -65,7 +65,8 @@ inline std::vector<SkeletonSample> sample_skeleton(const BoundingVolumeHierarchy
     const Vector3 d = node[b] - node[a];
     const double length = d.norm();
     const Vector3 tangent = length > 0 ? Vector3(d / length) : Vector3::UnitX();
-    const Index steps = std::max<Index>(1, static_cast<Index>(std::ceil(length / spacing)));
+    // An edge far beyond the model may not fill the memory: 100 diagonals are sampled as densely as asked.
+    const Index steps = static_cast<Index>(std::min(40000.0, std::max(1.0, std::ceil(length / spacing))));
     for (Index i = 0; i < steps; ++i)
       places.push_back({node[a] + (i + 0.5) / steps * d, tangent, i % 2 == 0});
   }
