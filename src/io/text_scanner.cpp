@@ -40,19 +40,21 @@ std::int64_t TextScanner::any_integer(const char* what) {
 }
 
 double TextScanner::any_number(const char* what) {
-  const char* from = at_ != end_ && *at_ == '+' ? at_ + 1 : at_;
+  const char* last = at_;
+  while (last != end_ && !is_separator(*last)) ++last;
+  const char* from = at_ != last && *at_ == '+' ? at_ + 1 : at_;
+  if (from != at_ && from != last && *from == '-') fail_expected(what);
   // A number below the range of double is zero or nearly so; one above it is an error. long double tells
-  // which.
+  // which. It gets a terminated copy, since libstdc++ 12 reads past the end of the range to the next zero
+  // byte.
+  const std::string text(from, last);
   long double wide = 0;
-  const auto [next, error] = std::from_chars(from, end_, wide);
-  if (error == std::errc::invalid_argument ||
-      (error == std::errc() && next != end_ && !is_separator(*next)) ||
-      (from != at_ && from != end_ && *from == '-'))
-    fail_expected(what);
+  const auto [next, error] = std::from_chars(text.data(), text.data() + text.size(), wide);
+  if (error == std::errc::invalid_argument || next != text.data() + text.size()) fail_expected(what);
   const double value = static_cast<double>(wide);
   if (error != std::errc() || !std::isfinite(value))
     fail(at_, std::string(what) + " is not finite: " + quoted(at_));
-  at_ = next;
+  at_ = last;
   return value;
 }
 

@@ -76,3 +76,18 @@ TEST_CASE("cut anywhere, a file is read or refused with a typed error") {
     }
   }
 }
+
+TEST_CASE("numbers at the end of memory that no zero byte follows") {
+  for (const std::string number : {"+1", "+0.5", "1e-4000", "1x", "+", "1e", "n"}) {
+    const std::string text = "OFF 1 0 0 0 0 " + number;
+    const std::vector<char> exact(text.begin(),
+                                  text.end());  // the address sanitizer sees any byte read behind it
+    try {
+      const PolygonSoup soup =
+          read_polygon_soup(std::string_view(exact.data(), exact.size()), MeshFormat::kOff);
+      CHECK(soup.points.size() == 1);
+    } catch (const ReadError& error) {
+      CHECK_THAT(error.what(), Contains("line 1"));
+    }
+  }
+}
