@@ -84,6 +84,33 @@ TEST_CASE("a grid of handles ends with all of them") {
   check_exact(make_snapshot(to_mesh(boundary(plate))), 16);
 }
 
+TEST_CASE("renumbering the surface moves no node") {
+  const DefaultMesh mesh = torus(1.0, 0.3, 30, 10);
+  std::vector<Index> place;
+  const SurfaceSnapshot surface = make_snapshot(mesh), other = make_snapshot(renumbered(mesh, 5, &place));
+  const SkeletonMesh points = random_skeleton_mesh(surface, 3, 0.2);
+  SkeletonMesh moved = points;
+  for (std::size_t v = 0; v < place.size(); ++v) {
+    moved.position[place[v]] = points.position[v];
+    moved.perimeter[place[v]] = points.perimeter[v];
+    moved.normal[place[v]] = points.normal[v];
+    moved.error[place[v]] = points.error[v];
+    moved.area[place[v]] = points.area[v];
+    moved.valid[place[v]] = points.valid[v];
+  }
+  CollapseOptions options;
+  options.one_dimensional = EdgePolicy::kKeep;
+  const auto a = collapse_skeleton_mesh(surface, points, compute_volume_cocycles(surface).label, options);
+  const auto b = collapse_skeleton_mesh(other, moved, compute_volume_cocycles(other).label, options);
+  REQUIRE(a.nodes.size() == b.nodes.size());
+  CHECK(a.edges.size() == b.edges.size());
+  for (std::size_t v = 0; v < place.size(); ++v) {
+    const CollapsedNode &p = a.nodes[a.node_of_vertex[v]], &q = b.nodes[b.node_of_vertex[place[v]]];
+    CHECK((p.position - q.position).norm() < 1e-9);
+    CHECK(p.set.count() == q.set.count());
+  }
+}
+
 TEST_CASE("without labels a torus ends as a tree") {
   const SurfaceSnapshot surface = make_snapshot(torus(1.0, 0.3, 24, 8));
   const CollapsedSkeleton tree = collapse_skeleton_mesh(surface, random_skeleton_mesh(surface, 1, 0.1));

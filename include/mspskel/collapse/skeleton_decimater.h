@@ -108,6 +108,7 @@ class SkeletonDecimater {
   bool process(Index e);
   bool is_noise(Index e) const;
   bool has_settled_neighbours(Index e) const;
+  bool moves_less(Index u, Index v) const;
   bool try_collapse(Index e, bool allow_parallel);
   void reopen_noise(Index node);
   void reopen_refused(Index node);

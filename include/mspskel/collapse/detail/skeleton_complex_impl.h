@@ -81,10 +81,11 @@ inline Index SkeletonComplex::add_edge(Index first, Index second, CocycleLabel l
 inline Index SkeletonComplex::add_face(Index dart0, Index dart1, Index dart2) {
   const std::array<Index, 3> darts{dart0, dart1, dart2};
   const Index f = face_capacity();
+  for (const Index d : darts)
+    if (d < 0 || d >= 2 * edge_capacity() || !is_edge(d / 2))
+      throw UsageError("face " + std::to_string(f) + " names a dart that does not exist");
   CocycleLabel sum;
   for (std::size_t i = 0; i < 3; ++i) {
-    if (darts[i] < 0 || darts[i] >= 2 * edge_capacity() || !is_edge(darts[i] / 2))
-      throw UsageError("face " + std::to_string(f) + " names a dart that does not exist");
     if (target(darts[i]) != origin(darts[(i + 1) % 3]))
       throw UsageError("the edges of face " + std::to_string(f) + " do not close");
     if (!labels_[darts[i] / 2].is_zero()) sum += label(darts[i]);

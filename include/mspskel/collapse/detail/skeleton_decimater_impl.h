@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 #include <string>
+#include <tuple>
 #include <utility>
 
 namespace mspskel {
@@ -157,10 +158,19 @@ inline bool SkeletonDecimater::process(Index e) {
   return false;
 }
 
+// The end with fewer edges moves, since its edges are relinked one by one. Merged edges keep the kept end's
+// place in the queue, so the choice matters and has to be one of geometry, not of numbering.
+inline bool SkeletonDecimater::moves_less(Index u, Index v) const {
+  const auto rank = [&](Index node) {
+    const MergingSet& set = sets_[node];
+    return std::make_tuple(complex_.degree(node), set.area(), set.perimeter(), set.error_sum());
+  };
+  return rank(u) >= rank(v);
+}
+
 inline bool SkeletonDecimater::try_collapse(Index e, bool allow_parallel) {
   const auto [first, second] = complex_.ends(e);
-  // The end with fewer edges moves: its edges are relinked one by one.
-  const bool keep_first = complex_.degree(first) >= complex_.degree(second);
+  const bool keep_first = moves_less(first, second);
   const Index kept = keep_first ? first : second, gone = keep_first ? second : first;
   const bool flat = complex_.face_count(e) == 0;
   const CollapseRefusal refusal = complex_.collapse(e, kept, allow_parallel);
