@@ -63,9 +63,8 @@ inline void report_shells(const ExtractResult& result, std::vector<std::string>&
 
 inline ExtractOptions default_options() {
   ExtractOptions o;
-  o.points.point.method = SkeletalPointMethod::kClosedForm;
-  o.points.point.max_segments = 48;
-  o.points.point.starts = 6;
+  // The repulsive force has a minimum in each lobe of a wide slice, the filled region's field one in the middle.
+  o.points.point.method = SkeletalPointMethod::kAreaField;
   o.collapse.lambda = 0;
   o.collapse.angle_floor = 0.3;
   o.collapse.one_dimensional = EdgePolicy::kKeep;

@@ -7,6 +7,7 @@
 #include "mspskel/graph/merge_joints.h"
 #include "mspskel/graph/prune_branches.h"
 #include "mspskel/graph/route_inside.h"
+#include "mspskel/graph/zip_arcs.h"
 
 namespace mspskel {
 
@@ -15,6 +16,7 @@ struct RefinementOptions {
   PruningOptions pruning;
   CenteringOptions centering;
   ExtensionOptions extension;
+  ZipOptions zip;
   double joint_overlap = 1.0;  // joints closer than this many radii of the smaller ball are one, 0 to 10
   double first_pruning = 0.3;  // share of the pruning thresholds before arcs are centred, 0 to 1
 };
@@ -23,6 +25,7 @@ inline void validate(const RefinementOptions& o) {
   validate(o.pruning);
   validate(o.centering);
   validate(o.extension);
+  validate(o.zip);
   if (!(o.joint_overlap >= 0 && o.joint_overlap <= 10))
     throw UsageError("joint overlap must be from 0 to 10 radii");
   if (!(o.first_pruning >= 0 && o.first_pruning <= 1)) throw UsageError("first pruning must be from 0 to 1");
@@ -31,6 +34,7 @@ inline void validate(const RefinementOptions& o) {
 struct RefinementCounts {
   Index pruned = 0;  // leaf arcs removed
   Index joints_merged = 0;
+  Index zips = 0;  // pairs of arcs joined from their joint to where they part
   RoutingResult routing;
 };
 
@@ -50,16 +54,19 @@ inline RefinementCounts refine_arcs(ArcGraph& graph, const SurfaceSnapshot& surf
     counts.joints_merged += merge_joints(graph, solid, options.joint_overlap);
     dissolve_through_hubs(graph);
   };
+  CenteringOptions few = options.centering;
+  few.rounds = (options.centering.rounds + 2) / 3;
   counts.routing = route_inside(graph, surface, solid);
   prune(options.first_pruning);  // hairs would pull on the arcs that they leave
-  CenteringOptions centering = options.centering;
-  centering.rounds = (options.centering.rounds + 2) / 3;
-  center_arcs(graph, solid, centering, execution);
-  prune(1.0);
+  for (int pass = 0; pass < 2; ++pass) {
+    center_arcs(graph, solid, few, execution);
+    counts.zips += zip_arcs(graph, surface, solid, options.zip);
+    prune(1.0);
+  }
   extend_ends(graph, solid, options.extension);
-  centering.rounds = options.centering.rounds - centering.rounds;
-  center_arcs(graph, solid, centering, execution);
+  center_arcs(graph, solid, few, execution);
   prune(1.0);
+  center_arcs(graph, solid, options.centering, execution);
   return counts;
 }
 

@@ -1,0 +1,144 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace mspskel {
+namespace detail {
+
+// An arc seen from one of its ends.
+struct ArcEnd {
+  Index arc;
+  int end;
+};
+
+struct CommonWay {
+  double length = 0.0;    // along the first arc
+  std::size_t first = 0;  // number of points of each arc on the way
+  std::size_t second = 0;
+  std::vector<Vector3> stem;  // middles of the two arcs' points, from the joint
+};
+
+inline std::vector<Vector3> points_from(const Arc& arc, int end) {
+  std::vector<Vector3> points = arc.points;
+  if (end == 1) std::reverse(points.begin(), points.end());
+  return points;
+}
+
+// Walks both polylines from their common first point for as long as they are close; both are evenly sampled.
+inline CommonWay common_way(const std::vector<Vector3>& a, const std::vector<Vector3>& b,
+                            const BoundingVolumeHierarchy& solid, double closeness) {
+  CommonWay way;
+  way.stem.push_back(a.front());
+  std::size_t j = 0;
+  for (std::size_t i = 1; i < a.size(); ++i) {
+    // The nearest point of b ahead of the last one.
+    std::size_t k = j;
+    while (k + 1 < b.size() && (b[k + 1] - a[i]).squaredNorm() < (b[k] - a[i]).squaredNorm()) ++k;
+    const double distance = (b[k] - a[i]).norm();
+    if (distance > 0) {
+      const double radius = std::min(solid.distance(a[i]), solid.distance(b[k]));
+      if (distance >= closeness * radius) break;
+    }
+    j = k;
+    way.length += (a[i] - a[i - 1]).norm();
+    way.first = i;
+    way.second = j;
+    way.stem.push_back(0.5 * (a[i] + b[j]));
+  }
+  return way;
+}
+
+// The points of an arc behind the common way, led in from the new joint.
+inline void cut_front(Arc& arc, int end, std::size_t count, Index joint, const Vector3& position) {
+  std::vector<Vector3> rest{position};
+  const std::vector<Vector3> points = points_from(arc, end);
+  rest.insert(rest.end(), points.begin() + static_cast<std::ptrdiff_t>(count) + 1, points.end());
+  if (end == 1) std::reverse(rest.begin(), rest.end());
+  arc.points = std::move(rest);
+  arc.hub[end] = joint;
+}
+
+inline double distance_to_points(const std::vector<Vector3>& points, const Vector3& x) {
+  double best = std::numeric_limits<double>::infinity();
+  for (const Vector3& p : points) best = std::min(best, (p - x).squaredNorm());
+  return best;
+}
+
+inline void give_near_vertices(ArcGraph& graph, const SurfaceSnapshot& surface, Index from, Index to) {
+  for (Index v = 0; v < surface.vertex_count(); ++v)
+    if (graph.arc_of_vertex[v] == from &&
+        distance_to_points(graph.arcs[to].points, surface.position[v]) <
+            distance_to_points(graph.arcs[from].points, surface.position[v]))
+      graph.arc_of_vertex[v] = to;
+}
+
+struct Zip {
+  ArcEnd a{kNone, 0}, b{kNone, 0};
+  CommonWay way;
+};
+
+inline void apply_zip(ArcGraph& graph, const SurfaceSnapshot& surface, const Zip& zip) {
+  const Index joint = graph.arcs[zip.a.arc].hub[zip.a.end];
+  const Vector3 position = zip.way.stem.back();
+  const Index parting = graph.add_hub(position);
+  cut_front(graph.arcs[zip.a.arc], zip.a.end, zip.way.first, parting, position);
+  cut_front(graph.arcs[zip.b.arc], zip.b.end, zip.way.second, parting, position);
+  Arc stem;
+  stem.hub = {joint, parting};
+  stem.points = zip.way.stem;
+  graph.arcs.push_back(std::move(stem));
+  const Index added = graph.arc_count() - 1;
+  give_near_vertices(graph, surface, zip.a.arc, added);
+  give_near_vertices(graph, surface, zip.b.arc, added);
+}
+
+}  // namespace detail
+
+inline Index zip_arcs(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
+                      const ZipOptions& options) {
+  validate(options);
+  if (options.closeness == 0) return 0;
+  Index zips = 0;
+  for (Index budget = 4 * graph.arc_count(); budget > 0; --budget) {
+    const auto at = graph.incidence();
+    detail::Zip best;
+    Index leaf_gone = kNone, leaf_joint = kNone;
+    for (Index h = 0; h < graph.hub_count() && leaf_gone == kNone; ++h) {
+      if (at[h].size() < 3) continue;
+      for (const Index a : at[h])
+        for (const Index b : at[h]) {
+          if (a == b || graph.arcs[a].hub[0] == graph.arcs[a].hub[1] ||
+              graph.arcs[b].hub[0] == graph.arcs[b].hub[1])
+            continue;
+          const detail::ArcEnd ea{a, graph.arcs[a].hub[0] == h ? 0 : 1},
+              eb{b, graph.arcs[b].hub[0] == h ? 0 : 1};
+          const auto pa = detail::points_from(graph.arcs[a], ea.end),
+                     pb = detail::points_from(graph.arcs[b], eb.end);
+          detail::CommonWay way = detail::common_way(pa, pb, solid, options.closeness);
+          const Index tip = graph.arcs[a].hub[1 - ea.end];
+          if (way.first + 1 == pa.size() && at[tip].size() == 1) {
+            leaf_gone = a;
+            leaf_joint = h;
+            break;
+          }
+          // Both must go on behind the parting point, and the way must be worth a joint of its own.
+          if (way.first + 1 >= pa.size() || way.second + 1 >= pb.size() || way.first < 2 || way.second < 2)
+            continue;
+          if (way.length > best.way.length) best = {ea, eb, std::move(way)};
+        }
+    }
+    if (leaf_gone != kNone) {
+      remove_leaf_arc(graph, leaf_gone, leaf_joint);
+    } else if (best.a.arc != kNone) {
+      detail::apply_zip(graph, surface, best);
+    } else {
+      break;
+    }
+    ++zips;
+    dissolve_through_hubs(graph);
+  }
+  return zips;
+}
+
+}  // namespace mspskel
