@@ -122,7 +122,7 @@ inline ExtractResult extract_skeleton_of_snapshot(SurfaceSnapshot surface, const
   ArcGraph arcs = make_arc_graph(result.collapsed);
   if (options.refinement.enabled) {
     result.refinement =
-        refine_arcs(arcs, s, solid, result.skeleton_mesh.perimeter, options.refinement, options.execution);
+        refine_arcs(arcs, s, solid, result.slices, options.refinement, options.execution);
     clock.lap("arcs");
   }
   result.skeleton = make_curve_skeleton(arcs, s, solid, result.skeleton_mesh.perimeter,

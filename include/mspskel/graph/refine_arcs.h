@@ -39,18 +39,18 @@ struct RefinementCounts {
 };
 
 // Every step keeps the number of components and of independent cycles: leaf arcs go, arcs that are no loops
-// contract, points move. `perimeter` is the MSP of every vertex. Throws UsageError, Cancelled.
+// contract, points move. `slices` are those of the surface's vertices. Throws UsageError, Cancelled.
 inline RefinementCounts refine_arcs(ArcGraph& graph, const SurfaceSnapshot& surface,
                                     const BoundingVolumeHierarchy& solid,
-                                    const std::vector<double>& perimeter, const RefinementOptions& options,
+                                    const VertexSlices& slices, const RefinementOptions& options,
                                     const Execution& execution = {}) {
   validate(options);
   RefinementCounts counts;
   const auto prune = [&](double share) {
     PruningOptions pruning = options.pruning;
-    pruning.protrusion *= share;
+    pruning.significance *= share;
     pruning.smallest *= share;
-    counts.pruned += prune_branches(graph, surface, solid, perimeter, pruning);
+    counts.pruned += prune_branches(graph, surface, solid, slices, pruning);
     counts.joints_merged += merge_joints(graph, solid, options.joint_overlap);
     dissolve_through_hubs(graph);
   };
@@ -67,6 +67,9 @@ inline RefinementCounts refine_arcs(ArcGraph& graph, const SurfaceSnapshot& surf
   center_arcs(graph, solid, few, execution);
   prune(1.0);
   center_arcs(graph, solid, options.centering, execution);
+  const Index spurs = remove_spurs(graph, solid);
+  counts.pruned += spurs;
+  if (spurs > 0) center_arcs(graph, solid, few, execution);
   return counts;
 }
 

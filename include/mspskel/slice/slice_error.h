@@ -76,7 +76,7 @@ inline double raw_slice_error(const SurfaceSnapshot& surface, const VertexSlices
 
 }  // namespace detail
 
-// Fills slices.error of every vertex with a slice. Cost: one trace a vertex. Throws Cancelled.
+// Fills slices.error and slices.area of every vertex with a slice. Cost: one trace a vertex. Throws Cancelled.
 inline void compute_slice_errors(const SliceTracer& tracer, const SliceErrorOptions& options,
                                  VertexSlices& slices, const Execution& execution = {}) {
   const SurfaceSnapshot& surface = tracer.surface();
@@ -85,6 +85,7 @@ inline void compute_slice_errors(const SliceTracer& tracer, const SliceErrorOpti
       surface.vertex_count(), "slice error", execution, [] { return Contour(); },
       [&](Index v, Contour& contour) {
         if (!slices.valid[v] || !tracer.shortest_contour(v, slices.normal[v], contour, steps[v])) return;
+        slices.area[v] = contour.area;
         slices.error[v] = detail::raw_slice_error(surface, slices, v, contour, options.average);
       });
   double low = std::numeric_limits<double>::infinity(), high = -low;

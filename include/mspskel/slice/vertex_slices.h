@@ -15,6 +15,7 @@ struct VertexSlices {
   std::vector<double> perimeter;      // MSP(v)
   std::vector<Vector3> normal;        // N_S(v), unit, of either sign
   std::vector<Vector3> centre;        // of the contour, by arc length
+  std::vector<double> area;           // that the contour encloses; filled in with the errors
   std::vector<double> error;          // E_s(v), normalised to [0, 1] (Eq. 3.2, 4.3)
   std::vector<Index> contour_points;  // crossings on the contour
   std::vector<std::uint8_t> valid;
@@ -28,6 +29,7 @@ struct VertexSlices {
     perimeter.assign(n, 0.0);
     normal.assign(n, Vector3::Zero());
     centre.assign(n, Vector3::Zero());
+    area.assign(n, 0.0);
     error.assign(n, 1.0);
     contour_points.assign(n, 0);
     valid.assign(n, 0);

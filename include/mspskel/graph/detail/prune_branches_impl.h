@@ -1,10 +1,15 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
-#include <queue>
 
 namespace mspskel {
+
+inline double slice_half_width(double perimeter, double area) {
+  return 0.25 * (perimeter / 2 + std::sqrt(std::max(0.0, perimeter * perimeter / 4 - 4 * area)));
+}
+
 namespace detail {
 
 struct Ball {
@@ -37,49 +42,21 @@ inline double distance_outside(const std::vector<Ball>& balls, const Vector3& x,
   return best;
 }
 
-inline double median(std::vector<double> values) {
+inline double value_at_rank(std::vector<double> values, double share) {
   if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + at, values.end());
+  return values[static_cast<std::size_t>(at)];
 }
 
-// Depth over the vertices of the arc and its tip against the balls of all other arcs and of the joint; width
-// from the joint's ball and the slices of the vertices nearest to the joint.
-inline LeafSignificance leaf_significance(const ArcGraph& graph, const SurfaceSnapshot& surface,
-                                          const ArcBalls& balls,
-                                          const std::vector<std::vector<Index>>& vertices, Index a,
-                                          Index joint, const std::vector<double>& perimeter) {
-  LeafSignificance s;
-  const Ball& hub = balls.hub[joint];
-  std::vector<double> base;
-  for (const Index v : vertices[a]) {
-    const Vector3& x = surface.position[v];
-    double outside = (x - hub.centre).norm() - hub.radius;
-    for (std::size_t b = 0; b < balls.arc.size() && outside > s.depth; ++b)
-      if (static_cast<Index>(b) != a && graph.arcs[b].alive)
-        outside = std::min(outside, distance_outside(balls.arc[b], x, s.depth));
-    s.depth = std::max(s.depth, outside);
-    if (perimeter[v] > 0) base.push_back(perimeter[v] / (2 * kPi));
-  }
-  s.width = std::max(1e-12, median(std::move(base)));
-  return s;
-}
+// Which vertices belong to which arc, and for every leaf arc the joint that it leaves.
+struct ArcParts {
+  std::vector<std::vector<Index>> vertices;  // per arc; a leaf arc has those of its tip as well
+  std::vector<std::vector<Index>> hub_vertices;  // per hub
+  std::vector<std::array<Index, 2>> leaves;      // {arc, joint}
 
-}  // namespace detail
-
-inline Index prune_branches(ArcGraph& graph, const SurfaceSnapshot& surface,
-                            const BoundingVolumeHierarchy& solid, const std::vector<double>& perimeter,
-                            const PruningOptions& options) {
-  validate(options);
-  Index removed = 0;
-  while (true) {
-    dissolve_through_hubs(graph);
-    const auto at = graph.incidence();
-    const detail::ArcBalls balls(graph, solid);
-    std::vector<std::vector<Index>> vertices(graph.arcs.size());
+  ArcParts(const ArcGraph& graph, const std::vector<std::vector<Index>>& at) : vertices(graph.arcs.size()), hub_vertices(graph.hub_position.size()) {
     std::vector<Index> leaf_arc_of_hub(graph.hub_position.size(), kNone);
-    std::vector<std::array<Index, 2>> leaves;  // {arc, joint}
     for (Index a = 0; a < graph.arc_count(); ++a) {
       if (!graph.arcs[a].alive) continue;
       for (const int end : {0, 1}) {
@@ -89,29 +66,132 @@ inline Index prune_branches(ArcGraph& graph, const SurfaceSnapshot& surface,
         leaf_arc_of_hub[tip] = a;
       }
     }
-    for (Index v = 0; v < surface.vertex_count(); ++v) {
-      const Index a = graph.arc_of_vertex[v] != kNone   ? graph.arc_of_vertex[v]
-                      : graph.hub_of_vertex[v] != kNone ? leaf_arc_of_hub[graph.hub_of_vertex[v]]
-                                                        : kNone;
+    for (Index v = 0; v < static_cast<Index>(graph.arc_of_vertex.size()); ++v) {
+      const Index hub = graph.hub_of_vertex[v];
+      const Index a = graph.arc_of_vertex[v] != kNone ? graph.arc_of_vertex[v] : hub != kNone ? leaf_arc_of_hub[hub] : kNone;
       if (a != kNone) vertices[a].push_back(v);
+      if (hub != kNone) hub_vertices[hub].push_back(v);
     }
-    // The weakest leaf of each joint goes in one sweep: those of different joints hardly depend on one
-    // another.
+  }
+};
+
+// The slices of the part that a leaf arc leaves: those of the other arcs' vertices near the joint.
+struct ParentSlices {
+  double perimeter = 0.0;   // median
+  double half_width = 0.0;  // median
+
+  ParentSlices(const ArcGraph& graph, const SurfaceSnapshot& surface, const VertexSlices& slices, const ArcParts& parts,
+               const std::vector<Index>& arcs_at_joint, Index leaf, Index joint, double reach) {
+    std::vector<double> perimeters, widths;
+    const auto collect = [&](Index v) {
+      if (!slices.valid[v] || (surface.position[v] - graph.hub_position[joint]).norm() >= reach) return;
+      perimeters.push_back(slices.perimeter[v]);
+      widths.push_back(slice_half_width(slices.perimeter[v], slices.area[v]));
+    };
+    for (const Index b : arcs_at_joint)
+      if (b != leaf)
+        for (const Index v : parts.vertices[b]) collect(v);
+    for (const Index v : parts.hub_vertices[joint]) collect(v);
+    perimeter = value_at_rank(std::move(perimeters), 0.5);
+    half_width = value_at_rank(std::move(widths), 0.5);
+  }
+};
+
+// Median half width and perimeter of the visible sections along an arc outside the joint's ball.
+inline std::array<double, 2> arc_sections(const Arc& arc, const Ball& joint, const BoundingVolumeHierarchy& solid) {
+  constexpr int kRays = 16;
+  std::vector<double> widths, perimeters;
+  for (std::size_t i = 1; i + 1 < arc.points.size(); ++i) {
+    const Vector3 along = arc.points[i + 1] - arc.points[i - 1];
+    if ((arc.points[i] - joint.centre).norm() < joint.radius || along.norm() == 0) continue;
+    const VisibleSection section = visible_section(solid, arc.points[i], along.normalized(), kRays);
+    if (!section.closed) continue;
+    const double area = kPi * section.radius * section.radius;
+    const double perimeter = std::sqrt(4 * kPi * area / std::max(section.roundness, 1e-6));
+    widths.push_back(slice_half_width(perimeter, area));
+    perimeters.push_back(perimeter);
+  }
+  return {value_at_rank(std::move(widths), 0.5), value_at_rank(std::move(perimeters), 0.5)};
+}
+
+inline LeafSignificance leaf_significance(const ArcGraph& graph, const SurfaceSnapshot& surface,
+                                          const BoundingVolumeHierarchy& solid, const VertexSlices& slices,
+                                          const ArcBalls& balls, const ArcParts& parts,
+                                          const std::vector<Index>& arcs_at_joint, Index a, Index joint) {
+  LeafSignificance s;
+  const Ball& hub = balls.hub[joint];
+  const auto [own_width, own_perimeter] = arc_sections(graph.arcs[a], hub, solid);
+  s.half_width = own_width;
+  const ParentSlices parent(graph, surface, slices, parts, arcs_at_joint, a, joint,
+                            2 * std::max(hub.radius, own_width));
+  // A flat part fills its slices, not its balls.
+  const double covered = std::max(hub.radius, parent.half_width);
+  for (const Index v : parts.vertices[a]) {
+    const Vector3& x = surface.position[v];
+    double outside = (x - hub.centre).norm() - covered;
+    for (std::size_t b = 0; b < balls.arc.size() && outside > s.depth; ++b)
+      if (static_cast<Index>(b) != a && graph.arcs[b].alive)
+        outside = std::min(outside, distance_outside(balls.arc[b], x, s.depth));
+    s.depth = std::max(s.depth, outside);
+  }
+  if (own_perimeter > 0) s.msp_ratio = std::max(1.0, parent.perimeter / own_perimeter);
+  return s;
+}
+
+}  // namespace detail
+
+inline double LeafSignificance::value() const {
+  return half_width > 0 ? depth / half_width * std::sqrt(std::min(msp_ratio, 9.0)) : 0.0;
+}
+
+inline Index prune_branches(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
+                            const VertexSlices& slices, const PruningOptions& options) {
+  validate(options);
+  Index removed = 0;
+  while (true) {
+    dissolve_through_hubs(graph);
+    const auto at = graph.incidence();
+    const detail::ArcBalls balls(graph, solid);
+    const detail::ArcParts parts(graph, at);
+    // The weakest leaf of each joint goes in one sweep: those of different joints hardly depend on one another.
     std::vector<std::pair<double, Index>> weakest(graph.hub_position.size(), {1.0, kNone});
-    for (const auto& [a, joint] : leaves) {
-      const LeafSignificance s =
-          detail::leaf_significance(graph, surface, balls, vertices, a, joint, perimeter);
-      const double need = std::max(options.protrusion * s.width, options.smallest);
-      const double score = need > 0 ? s.depth / need : 1.0;
+    for (const auto& [a, joint] : parts.leaves) {
+      const LeafSignificance s = detail::leaf_significance(graph, surface, solid, slices, balls, parts, at[joint], a, joint);
+      const double score = std::min(options.significance > 0 ? s.value() / options.significance : 1.0,
+                                    options.smallest > 0 ? s.depth / options.smallest : 1.0);
+      if (getenv("DUMP")) fprintf(stderr, "leaf arc %d at %.3f %.3f %.3f depth %.4f hw %.4f d/h %.2f ratio %.2f value %.2f verts %d\n", a, graph.arcs[a].points[graph.arcs[a].hub[0]==joint?graph.arcs[a].points.size()-1:0].x(),graph.arcs[a].points[graph.arcs[a].hub[0]==joint?graph.arcs[a].points.size()-1:0].y(),graph.arcs[a].points[graph.arcs[a].hub[0]==joint?graph.arcs[a].points.size()-1:0].z(), s.depth, s.half_width, s.depth/s.half_width, s.msp_ratio, s.value(), (int)parts.vertices[a].size());
       if (score < weakest[joint].first) weakest[joint] = {score, a};
     }
-    Index before = removed;
+    const Index before = removed;
     for (Index h = 0; h < graph.hub_count(); ++h)
       if (weakest[h].second != kNone) {
         remove_leaf_arc(graph, weakest[h].second, h);
         ++removed;
       }
     if (removed == before) return removed;
+  }
+}
+
+inline Index remove_spurs(ArcGraph& graph, const BoundingVolumeHierarchy& solid) {
+  Index removed = 0;
+  while (true) {
+    dissolve_through_hubs(graph);
+    const auto at = graph.incidence();
+    Index spur = kNone, joint = kNone;
+    for (Index a = 0; a < graph.arc_count() && spur == kNone; ++a) {
+      if (!graph.arcs[a].alive) continue;
+      for (const int end : {0, 1}) {
+        const Index tip = graph.arcs[a].hub[end], hub = graph.arcs[a].hub[1 - end];
+        if (at[tip].size() != 1 || at[hub].size() < 3) continue;
+        const Vector3& centre = graph.hub_position[hub];
+        if ((graph.hub_position[tip] - centre).norm() >= solid.distance(centre)) continue;
+        spur = a;
+        joint = hub;
+      }
+    }
+    if (spur == kNone) return removed;
+    remove_leaf_arc(graph, spur, joint);
+    ++removed;
   }
 }
 
