@@ -63,8 +63,10 @@ inline void report_shells(const ExtractResult& result, std::vector<std::string>&
 
 inline ExtractOptions default_options() {
   ExtractOptions o;
-  // The repulsive force has a minimum in each lobe of a wide slice, the filled region's field one in the middle.
+  // The repulsive force has a minimum in each lobe of a wide slice, the filled region's field one in the
+  // middle.
   o.points.point.method = SkeletalPointMethod::kAreaField;
+  o.points.holes = HoleSearch::kProbe;
   o.collapse.lambda = 0;
   o.collapse.angle_floor = 0.3;
   o.collapse.one_dimensional = EdgePolicy::kKeep;
@@ -121,8 +123,7 @@ inline ExtractResult extract_skeleton_of_snapshot(SurfaceSnapshot surface, const
   clock.lap("collapse");
   ArcGraph arcs = make_arc_graph(result.collapsed);
   if (options.refinement.enabled) {
-    result.refinement =
-        refine_arcs(arcs, s, solid, result.slices, options.refinement, options.execution);
+    result.refinement = refine_arcs(arcs, s, solid, result.slices, options.refinement, options.execution);
     clock.lap("arcs");
   }
   result.skeleton = make_curve_skeleton(arcs, s, solid, result.skeleton_mesh.perimeter,

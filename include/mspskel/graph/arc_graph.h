@@ -41,6 +41,9 @@ struct ArcGraph {
 
 double arc_length(const Arc& arc);
 
+// The points in order from the hub at the given end, 0 or 1.
+std::vector<Vector3> points_from(const Arc& arc, int end);
+
 // Points at equal steps of at most `step`; ends stay. A loop gets at least three edges, any other arc at
 // least `min_edges`.
 std::vector<Vector3> resampled(const Arc& arc, double step, Index min_edges = 1);

@@ -2,6 +2,7 @@
 // into the tips.
 #pragma once
 
+#include "mspskel/graph/aim_ends.h"
 #include "mspskel/graph/center_arcs.h"
 #include "mspskel/graph/extend_ends.h"
 #include "mspskel/graph/merge_joints.h"
@@ -41,9 +42,8 @@ struct RefinementCounts {
 // Every step keeps the number of components and of independent cycles: leaf arcs go, arcs that are no loops
 // contract, points move. `slices` are those of the surface's vertices. Throws UsageError, Cancelled.
 inline RefinementCounts refine_arcs(ArcGraph& graph, const SurfaceSnapshot& surface,
-                                    const BoundingVolumeHierarchy& solid,
-                                    const VertexSlices& slices, const RefinementOptions& options,
-                                    const Execution& execution = {}) {
+                                    const BoundingVolumeHierarchy& solid, const VertexSlices& slices,
+                                    const RefinementOptions& options, const Execution& execution = {}) {
   validate(options);
   RefinementCounts counts;
   const auto prune = [&](double share) {
@@ -57,12 +57,14 @@ inline RefinementCounts refine_arcs(ArcGraph& graph, const SurfaceSnapshot& surf
   CenteringOptions few = options.centering;
   few.rounds = (options.centering.rounds + 2) / 3;
   counts.routing = route_inside(graph, surface, solid);
+  aim_ends(graph, surface, solid, options.centering.step);
   prune(options.first_pruning);  // hairs would pull on the arcs that they leave
   for (int pass = 0; pass < 2; ++pass) {
     center_arcs(graph, solid, few, execution);
     counts.zips += zip_arcs(graph, surface, solid, options.zip);
     prune(1.0);
   }
+  aim_ends(graph, surface, solid, options.centering.step);
   extend_ends(graph, solid, options.extension);
   center_arcs(graph, solid, few, execution);
   prune(1.0);

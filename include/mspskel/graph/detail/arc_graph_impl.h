@@ -28,6 +28,12 @@ inline double arc_length(const Arc& arc) {
   return length;
 }
 
+inline std::vector<Vector3> points_from(const Arc& arc, int end) {
+  std::vector<Vector3> points = arc.points;
+  if (end == 1) std::reverse(points.begin(), points.end());
+  return points;
+}
+
 inline std::vector<Vector3> resampled(const Arc& arc, double step, Index min_edges) {
   if (arc.hub[0] == arc.hub[1]) min_edges = std::max<Index>(min_edges, 3);
   const double length = arc_length(arc);

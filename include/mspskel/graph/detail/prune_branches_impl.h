@@ -51,11 +51,12 @@ inline double value_at_rank(std::vector<double> values, double share) {
 
 // Which vertices belong to which arc, and for every leaf arc the joint that it leaves.
 struct ArcParts {
-  std::vector<std::vector<Index>> vertices;  // per arc; a leaf arc has those of its tip as well
+  std::vector<std::vector<Index>> vertices;      // per arc; a leaf arc has those of its tip as well
   std::vector<std::vector<Index>> hub_vertices;  // per hub
   std::vector<std::array<Index, 2>> leaves;      // {arc, joint}
 
-  ArcParts(const ArcGraph& graph, const std::vector<std::vector<Index>>& at) : vertices(graph.arcs.size()), hub_vertices(graph.hub_position.size()) {
+  ArcParts(const ArcGraph& graph, const std::vector<std::vector<Index>>& at)
+      : vertices(graph.arcs.size()), hub_vertices(graph.hub_position.size()) {
     std::vector<Index> leaf_arc_of_hub(graph.hub_position.size(), kNone);
     for (Index a = 0; a < graph.arc_count(); ++a) {
       if (!graph.arcs[a].alive) continue;
@@ -68,7 +69,9 @@ struct ArcParts {
     }
     for (Index v = 0; v < static_cast<Index>(graph.arc_of_vertex.size()); ++v) {
       const Index hub = graph.hub_of_vertex[v];
-      const Index a = graph.arc_of_vertex[v] != kNone ? graph.arc_of_vertex[v] : hub != kNone ? leaf_arc_of_hub[hub] : kNone;
+      const Index a = graph.arc_of_vertex[v] != kNone ? graph.arc_of_vertex[v]
+                      : hub != kNone                  ? leaf_arc_of_hub[hub]
+                                                      : kNone;
       if (a != kNone) vertices[a].push_back(v);
       if (hub != kNone) hub_vertices[hub].push_back(v);
     }
@@ -80,8 +83,9 @@ struct ParentSlices {
   double perimeter = 0.0;   // median
   double half_width = 0.0;  // median
 
-  ParentSlices(const ArcGraph& graph, const SurfaceSnapshot& surface, const VertexSlices& slices, const ArcParts& parts,
-               const std::vector<Index>& arcs_at_joint, Index leaf, Index joint, double reach) {
+  ParentSlices(const ArcGraph& graph, const SurfaceSnapshot& surface, const VertexSlices& slices,
+               const ArcParts& parts, const std::vector<Index>& arcs_at_joint, Index leaf, Index joint,
+               double reach) {
     std::vector<double> perimeters, widths;
     const auto collect = [&](Index v) {
       if (!slices.valid[v] || (surface.position[v] - graph.hub_position[joint]).norm() >= reach) return;
@@ -98,7 +102,8 @@ struct ParentSlices {
 };
 
 // Median half width and perimeter of the visible sections along an arc outside the joint's ball.
-inline std::array<double, 2> arc_sections(const Arc& arc, const Ball& joint, const BoundingVolumeHierarchy& solid) {
+inline std::array<double, 2> arc_sections(const Arc& arc, const Ball& joint,
+                                          const BoundingVolumeHierarchy& solid) {
   constexpr int kRays = 16;
   std::vector<double> widths, perimeters;
   for (std::size_t i = 1; i + 1 < arc.points.size(); ++i) {
@@ -144,8 +149,9 @@ inline double LeafSignificance::value() const {
   return half_width > 0 ? depth / half_width * std::sqrt(std::min(msp_ratio, 9.0)) : 0.0;
 }
 
-inline Index prune_branches(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
-                            const VertexSlices& slices, const PruningOptions& options) {
+inline Index prune_branches(ArcGraph& graph, const SurfaceSnapshot& surface,
+                            const BoundingVolumeHierarchy& solid, const VertexSlices& slices,
+                            const PruningOptions& options) {
   validate(options);
   Index removed = 0;
   while (true) {
@@ -153,13 +159,14 @@ inline Index prune_branches(ArcGraph& graph, const SurfaceSnapshot& surface, con
     const auto at = graph.incidence();
     const detail::ArcBalls balls(graph, solid);
     const detail::ArcParts parts(graph, at);
-    // The weakest leaf of each joint goes in one sweep: those of different joints hardly depend on one another.
+    // The weakest leaf of each joint goes in one sweep: those of different joints hardly depend on one
+    // another.
     std::vector<std::pair<double, Index>> weakest(graph.hub_position.size(), {1.0, kNone});
     for (const auto& [a, joint] : parts.leaves) {
-      const LeafSignificance s = detail::leaf_significance(graph, surface, solid, slices, balls, parts, at[joint], a, joint);
+      const LeafSignificance s =
+          detail::leaf_significance(graph, surface, solid, slices, balls, parts, at[joint], a, joint);
       const double score = std::min(options.significance > 0 ? s.value() / options.significance : 1.0,
                                     options.smallest > 0 ? s.depth / options.smallest : 1.0);
-      if (getenv("DUMP")) fprintf(stderr, "leaf arc %d at %.3f %.3f %.3f depth %.4f hw %.4f d/h %.2f ratio %.2f value %.2f verts %d\n", a, graph.arcs[a].points[graph.arcs[a].hub[0]==joint?graph.arcs[a].points.size()-1:0].x(),graph.arcs[a].points[graph.arcs[a].hub[0]==joint?graph.arcs[a].points.size()-1:0].y(),graph.arcs[a].points[graph.arcs[a].hub[0]==joint?graph.arcs[a].points.size()-1:0].z(), s.depth, s.half_width, s.depth/s.half_width, s.msp_ratio, s.value(), (int)parts.vertices[a].size());
       if (score < weakest[joint].first) weakest[joint] = {score, a};
     }
     const Index before = removed;

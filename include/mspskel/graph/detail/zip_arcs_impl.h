@@ -19,12 +19,6 @@ struct CommonWay {
   std::vector<Vector3> stem;  // middles of the two arcs' points, from the joint
 };
 
-inline std::vector<Vector3> points_from(const Arc& arc, int end) {
-  std::vector<Vector3> points = arc.points;
-  if (end == 1) std::reverse(points.begin(), points.end());
-  return points;
-}
-
 // Walks both polylines from their common first point for as long as they are close; both are evenly sampled.
 inline CommonWay common_way(const std::vector<Vector3>& a, const std::vector<Vector3>& b,
                             const BoundingVolumeHierarchy& solid, double closeness) {
@@ -113,8 +107,7 @@ inline Index zip_arcs(ArcGraph& graph, const SurfaceSnapshot& surface, const Bou
             continue;
           const detail::ArcEnd ea{a, graph.arcs[a].hub[0] == h ? 0 : 1},
               eb{b, graph.arcs[b].hub[0] == h ? 0 : 1};
-          const auto pa = detail::points_from(graph.arcs[a], ea.end),
-                     pb = detail::points_from(graph.arcs[b], eb.end);
+          const auto pa = points_from(graph.arcs[a], ea.end), pb = points_from(graph.arcs[b], eb.end);
           detail::CommonWay way = detail::common_way(pa, pb, solid, options.closeness);
           const Index tip = graph.arcs[a].hub[1 - ea.end];
           if (way.first + 1 == pa.size() && at[tip].size() == 1) {

@@ -1,0 +1,19 @@
+// Leaf ends are aimed at the surface that they stand for, before anyone judges or grows them.
+#pragma once
+
+#include "mspskel/graph/prune_branches.h"
+
+namespace mspskel {
+
+// Where slices lie along a limb instead of across it, as round tips and flat ends (terminal deviation,
+// thesis 3.1), a leaf arc ends far from its part of the surface. From its end, or from its joint if it never
+// leaves the joint's ball, each leaf arc is led straight towards the vertex that is farthest outside the
+// balls of the skeleton, among those of its part that lie ahead of the tip, until the ball there touches it.
+// Arcs whose part is covered, or whose target is out of sight, stay. Returns the number of arcs that changed.
+// Cost: O(vertices on leaf arcs · points near them) and a few queries an arc.
+Index aim_ends(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
+               double step);
+
+}  // namespace mspskel
+
+#include "mspskel/graph/detail/aim_ends_impl.h"
