@@ -1,0 +1,217 @@
+#pragma once
+
+#include <algorithm>
+
+namespace mspskel::detail {
+
+// Planes closer than 4 degrees are left to the compass.
+inline constexpr double kSamePlane = 0.9976;
+// A neighbour's plane is tried unless its slice there is longer than the best here by more than this factor.
+inline constexpr double kOfferSlack = 1.02;
+// A gain of less than 0.2 % is not worth the planes that every change makes the neighbours try.
+inline constexpr double kLeastGain = 0.998;
+
+struct PlaneOffer {
+  double objective;
+  Vector3 normal;
+};
+
+// What one vertex finds in a round: no start half-edge where it has no better plane than before.
+struct RoundResult {
+  BestSlice slice;
+  double objective = std::numeric_limits<double>::infinity();
+  bool visited = true;
+};
+
+// What the vertices know after a round. best[v] holds v's slice and the work so far.
+struct SearchState {
+  std::vector<BestSlice> best;
+  std::vector<double> objective;
+  std::vector<int> changed_in;  // the last round that gave v another plane
+  std::vector<std::uint8_t> visited;
+  Index changed, unvisited;
+
+  explicit SearchState(Index count)
+      : best(count),
+        objective(count, std::numeric_limits<double>::infinity()),
+        changed_in(count, -2),
+        visited(count, 0),
+        changed(count),
+        unvisited(count) {}
+
+  bool has_slice(Index v) const { return best[v].shortest.start != kNone; }
+
+  // Takes over what the round found.
+  void advance(const std::vector<RoundResult>& found, int round) {
+    changed = unvisited = 0;
+    for (std::size_t v = 0; v < best.size(); ++v) {
+      const RoundResult& result = found[v];
+      best[v].slices += result.slice.slices;
+      best[v].steps += result.slice.steps;
+      const bool better = result.slice.shortest.start != kNone;
+      if (better) {
+        best[v].shortest = result.slice.shortest;
+        best[v].normal = result.slice.normal;
+        objective[v] = result.objective;
+        changed_in[v] = round;
+      }
+      if (better || (result.visited && !visited[v])) ++changed;
+      visited[v] = result.visited;
+      if (!result.visited) ++unvisited;
+    }
+  }
+};
+
+template <class Visit>
+void for_each_neighbour(const SurfaceSnapshot& surface, Index v, Visit&& visit) {
+  const Index first = surface.vertex_halfedge[v];
+  Index h = first;
+  do {
+    visit(surface.target(h));
+    h = surface.next_outgoing(h);
+  } while (h != first);
+}
+
+// The search at one vertex. A plane is its unit normal m; its tilt is asin|m·n_p|.
+class PlaneSearch {
+ public:
+  PlaneSearch(const SliceTracer& tracer, const SearchOptions& options, Index v, const Vector3& normal,
+              double objective)
+      : tracer_(tracer),
+        options_(options),
+        v_(v),
+        frame_(make_vertex_frame(tracer.surface(), v)),
+        max_sine_(std::sin(options.max_tilt * kPi / 180)),
+        objective_(objective) {
+    best_.normal = normal;
+  }
+
+  // The slice found and the work spent; no start half-edge unless some plane was better.
+  const BestSlice& best() const { return best_; }
+  double objective() const { return objective_; }
+
+  bool knows(const Vector3& m) const { return std::abs(m.dot(best_.normal)) > kSamePlane; }
+
+  // True if the plane is allowed and better than the best so far.
+  bool try_plane(const Vector3& m) {
+    const double sine = std::abs(m.dot(frame_.normal));
+    if (sine > max_sine_ + 1e-12) return false;
+    const double cosine = tilt_factor(options_.objective, sine);
+    ++best_.slices;
+    const auto found = tracer_.shortest_through(v_, m, kLeastGain * objective_ * cosine, best_.steps);
+    if (found.start == kNone) return false;
+    best_.shortest = found;
+    best_.normal = m;
+    objective_ = found.perimeter / cosine;
+    return true;
+  }
+
+  void try_angles() {
+    for (int i = 0; i < options_.angles; ++i)
+      try_plane(plane_normal(frame_.u, frame_.v, kPi * i / options_.angles));
+  }
+
+  // Normals spread evenly over the band of the sphere that the tilt allows. The zero direction differs from
+  // vertex to vertex, so together neighbours look at many more planes than one of them.
+  void try_spread() {
+    constexpr double kGolden = 0.6180339887498949;
+    for (int i = 0; i < options_.spread; ++i) {
+      const double sine = max_sine_ * (i + 0.5) / options_.spread;
+      const Vector3 m =
+          std::sqrt(1 - sine * sine) * plane_normal(frame_.u, frame_.v, 2 * kPi * kGolden * (i + 0.5)) +
+          sine * frame_.normal;
+      if (!knows(m)) try_plane(m);
+    }
+  }
+
+  // Turns about the vertex normal and tilts towards it by ± step; halves the step when nothing helps.
+  void compass(double step_degrees) {
+    if (best_.shortest.start == kNone) return;
+    const double least = options_.last_step * kPi / 180;
+    int helped = -1;
+    for (double step = step_degrees * kPi / 180; step >= least * (1 - 1e-9);) {
+      const Vector3 m = best_.normal;
+      const Vector3 turn = frame_.normal.cross(m).normalized(), tilt = m.cross(turn).normalized();
+      const Vector3 moves[4] = {turn, -turn, tilt, -tilt};
+      const int last = helped;
+      helped = -1;
+      for (int i = 0; i < 4 && helped < 0; ++i) {
+        const int k = last < 0 ? i : (last + i) % 4;  // go on in the direction that helped
+        if (last >= 0 && k == (last ^ 1)) continue;   // never straight back
+        if (try_plane(std::cos(step) * m + std::sin(step) * moves[k])) helped = k;
+      }
+      if (helped < 0) step /= 2;
+    }
+  }
+
+  // cos(tilt), or 1 where the tilt does not count.
+  static double tilt_factor(SliceObjective objective, double sine) {
+    return objective == SliceObjective::kPerimeter ? 1.0 : std::sqrt(1 - sine * sine);
+  }
+
+ private:
+  const SliceTracer& tracer_;
+  const SearchOptions& options_;
+  Index v_;
+  VertexFrame frame_;
+  double max_sine_;
+  BestSlice best_;
+  double objective_;
+};
+
+inline bool is_seed(const SurfaceSnapshot& surface, Index v) {
+  bool seed = true;
+  for_each_neighbour(surface, v,
+                     [&](Index w) { seed = seed && surface.vertex_area[w] <= surface.vertex_area[v]; });
+  return seed;
+}
+
+// Planes of v's neighbours that v has not seen and that promise a gain, the most promising first.
+inline void collect_offers(const SurfaceSnapshot& surface, const SearchState& state, int round, Index v,
+                           std::vector<PlaneOffer>& offers) {
+  offers.clear();
+  const bool settled = state.visited[v] && state.changed_in[v] < round - 1;
+  for_each_neighbour(surface, v, [&](Index w) {
+    if (!state.has_slice(w) || (settled && state.changed_in[w] < round - 1)) return;
+    offers.push_back({state.objective[w], state.best[w].normal});
+  });
+  std::sort(offers.begin(), offers.end(),
+            [](const PlaneOffer& a, const PlaneOffer& b) { return a.objective < b.objective; });
+}
+
+// The offers to v, each plane once.
+inline void try_offers(const std::vector<PlaneOffer>& offers, PlaneSearch& search) {
+  for (auto offer = offers.begin(); offer != offers.end(); ++offer) {
+    if (offer->objective > kOfferSlack * search.objective()) return;
+    const bool repeated = std::any_of(offers.begin(), offer, [&](const PlaneOffer& other) {
+      return std::abs(other.normal.dot(offer->normal)) > kSamePlane;
+    });
+    if (!repeated && !search.knows(offer->normal)) search.try_plane(offer->normal);
+  }
+}
+
+// One round of one vertex. A seed starts in round 0, any other vertex once a neighbour has been visited.
+inline RoundResult search_round(const SliceTracer& tracer, const SearchOptions& options,
+                                const SearchState& state, int round, Index v,
+                                std::vector<PlaneOffer>& offers) {
+  const SurfaceSnapshot& surface = tracer.surface();
+  RoundResult result;
+  if (surface.vertex_halfedge[v] == kNone) return result;
+  const bool first_visit = !state.visited[v];
+  if (first_visit) {
+    result.visited = round == 0 && is_seed(surface, v);
+    for_each_neighbour(surface, v, [&](Index w) { result.visited = result.visited || state.visited[w]; });
+    if (!result.visited) return result;
+  }
+  PlaneSearch search(tracer, options, v, state.best[v].normal, state.objective[v]);
+  collect_offers(surface, state, round, v, offers);
+  try_offers(offers, search);
+  if (round == 0) search.try_angles();
+  if (first_visit) search.try_spread();
+  search.compass(round == 0 ? options.first_step : options.last_step);
+  result.slice = search.best();
+  result.objective = search.objective();
+  return result;
+}
+
+}  // namespace mspskel::detail
