@@ -173,10 +173,14 @@ PolygonSoup polygonise(const ImplicitSolid& solid, Index vertices, double thinne
     if (wanted > 0.75 * cell) break;
     cell = wanted;
   }
-  soup = remesh(soup, solid, options);
-  if (is_folded(soup, solid, options.edge))
-    throw UsageError("the resolution is too low for the solid's thinnest parts");
-  return soup;
+  // Now and then a face gets stuck the wrong way round in a crease; from another grid it does not.
+  for (int attempt = 0; attempt < 3; ++attempt) {
+    PolygonSoup result = remesh(soup, solid, options);
+    if (!is_folded(result, solid, options.edge)) return result;
+    cell *= 0.85;
+    soup = march_tetrahedra(solid, cell);
+  }
+  throw UsageError("the resolution is too low for the solid's thinnest parts");
 }
 
 }  // namespace mspskel

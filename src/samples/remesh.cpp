@@ -25,6 +25,7 @@ using EdgeHandle = Mesh::EdgeHandle;
 constexpr double kLongest = 4.0 / 3,
                  kShortest = 0.7;     // of the wanted edge length: Botsch, Kobbelt 2004, sections 4
 constexpr double kLeastCosine = 0.5;  // between a face and the solid's surface, as far as steps decide
+constexpr double kFarthest = 0.05;    // of a relaxed vertex from the surface, edge lengths
 
 class Remesher {
  public:
@@ -109,11 +110,22 @@ class Remesher {
     return mesh_.is_collapse_ok(h);
   }
 
+  // Whether one of the edge's faces looks into the solid: no small step mends that, the face has to go.
+  bool beside_fold(EdgeHandle e) const {
+    for (unsigned side = 0; side < 2; ++side) {
+      const auto h = mesh_.halfedge_handle(e, side);
+      const VertexHandle a = mesh_.from_vertex_handle(h), b = mesh_.to_vertex_handle(h),
+                         c = mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h));
+      if (cosine(normal(mesh_.point(a), mesh_.point(b), mesh_.point(c)), up(a, b, c)) < 0.2) return true;
+    }
+    return false;
+  }
+
   void collapse_short_edges() {
     const std::size_t count = mesh_.n_edges();
     for (std::size_t i = 0; i < count; ++i) {
       const EdgeHandle e(static_cast<int>(i));
-      if (mesh_.status(e).deleted() || length(e) >= kShortest * options_.edge) continue;
+      if (mesh_.status(e).deleted() || (length(e) >= kShortest * options_.edge && !beside_fold(e))) continue;
       for (unsigned side = 0; side < 2; ++side)
         if (const auto h = mesh_.halfedge_handle(e, side); may_collapse(h)) {
           mesh_.collapse(h);
@@ -214,22 +226,26 @@ class Remesher {
       mean /= valence;
       normal_sum.normalize();
       const Vector3 p = to_vector3(mesh_.point(v)), shift = mean - p;
-      Vector3 outward;
-      const Vector3 target = projected(p + shift - normal_sum.dot(shift) * normal_sum, newton_steps, outward);
-      move_unless_turned(v, target, outward);
+      if (!move(v, p + shift - normal_sum.dot(shift) * normal_sum, newton_steps)) move(v, p, newton_steps);
     }
   }
 
-  void move_unless_turned(VertexHandle v, const Vector3& to, const Vector3& outward) {
+  // Moves a vertex to the surface near `goal`; false if it does not get there (in a crease the gradient
+  // misleads) or a face would turn over.
+  bool move(VertexHandle v, const Vector3& goal, int newton_steps) {
+    Vector3 outward;
+    const Vector3 to = projected(goal, newton_steps, outward);
+    if (std::abs(solid_.value(to)) > kFarthest * options_.edge) return false;
     const Point target(to.x(), to.y(), to.z());
     for (auto it = mesh_.cvoh_iter(v); it.is_valid(); ++it) {
       const VertexHandle b = mesh_.to_vertex_handle(*it),
                          c = mesh_.to_vertex_handle(mesh_.next_halfedge_handle(*it));
       const Point &pb = mesh_.point(b), &pc = mesh_.point(c);
-      if (turns(normal(mesh_.point(v), pb, pc), normal(target, pb, pc), up(v, b, c))) return;
+      if (turns(normal(mesh_.point(v), pb, pc), normal(target, pb, pc), up(v, b, c))) return false;
     }
     mesh_.set_point(v, target);
     set_normal(v, outward);
+    return true;
   }
 
   Mesh mesh_;
