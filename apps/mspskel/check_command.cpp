@@ -2,20 +2,23 @@
 #include <cstdio>
 #include <iostream>
 
+#include "certificate.h"
 #include "command_line.h"
 #include "commands.h"
-#include "files.h"
 #include "mspskel/base/error.h"
 #include "mspskel/graph/check_skeleton.h"
+#include "mspskel/io/atomic_file.h"
 #include "mspskel/io/read_mesh.h"
+#include "mspskel/io/read_skeleton.h"
 #include "mspskel/mesh/surface_snapshot.h"
 #include "report.h"
 
 namespace mspskel::cli {
 namespace {
 
-Json checks_json(const SkeletonChecks& checks) {
+Json checks_json(const SkeletonChecks& checks, const TopologyCertificate& certificate) {
   return Json{{"topology", checks.topology},
+              {"certificate", certificate_json(certificate)},
               {"b0", checks.b0},
               {"b1", checks.b1},
               {"components", checks.components},
@@ -40,10 +43,12 @@ Json checks_json(const SkeletonChecks& checks) {
               {"diagonal", checks.diagonal}};
 }
 
-void print(const SkeletonChecks& c) {
+void print(const SkeletonChecks& c, const TopologyCertificate& certificate) {
   std::printf("topology     %s: %d piece%s and %d cycle%s on a surface of %d component%s and genus %d\n",
               c.topology ? "right" : "WRONG", c.b0, c.b0 == 1 ? "" : "s", c.b1, c.b1 == 1 ? "" : "s",
               c.components, c.components == 1 ? "" : "s", c.genus);
+  std::printf("certificate  %s%s%s\n", to_string(certificate.verdict), certificate.reason.empty() ? "" : ": ",
+              certificate.reason.c_str());
   std::printf("inside       %.4g %% of the length; %d nodes outside, %d edges through the surface\n",
               100 * c.inside, c.outside_nodes, c.crossing_edges);
   std::printf("off centre   mean %.4f, 90th percentile %.4f (0: centred, 1: at the wall)\n",
@@ -75,11 +80,13 @@ int check_command(const std::vector<std::string>& arguments) {
   if (!line.parse(arguments)) return 0;
 
   const SurfaceSnapshot surface = make_snapshot(read_mesh(mesh_path));
-  const SkeletonChecks checks =
-      check_skeleton(surface, BoundingVolumeHierarchy(surface), read_skeleton(skeleton_path), execution);
+  const CurveSkeleton skeleton = read_skeleton(skeleton_path);
+  const BoundingVolumeHierarchy solid(surface);
+  const SkeletonChecks checks = check_skeleton(surface, solid, skeleton, execution);
+  const TopologyCertificate certificate = certify(surface, compute_volume_cocycles(surface), solid, skeleton);
   const bool inside = least_inside < 1 ? checks.inside >= least_inside : checks.contained;
-  if (!json_path.empty()) write_file(json_path, report_text(checks_json(checks)));
-  if (!quiet && json_path != "-") print(checks);
+  if (!json_path.empty()) write_file_atomically(json_path, report_text(checks_json(checks, certificate)));
+  if (!quiet && json_path != "-") print(checks, certificate);
   if (!checks.topology) throw NoSkeletonError("the skeleton's topology is not the mesh's");
   if (!inside) throw NoSkeletonError("the skeleton leaves the solid");
   return 0;

@@ -1,6 +1,7 @@
 // mspskel IN [OUT...]: from a mesh file to skeleton files.
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
@@ -9,9 +10,11 @@
 #include "cancellation.h"
 #include "commands.h"
 #include "extract_settings.h"
-#include "files.h"
 #include "mspskel/base/error.h"
+#include "mspskel/io/atomic_file.h"
 #include "mspskel/io/read_mesh.h"
+#include "mspskel/io/write_skeleton.h"
+#include "mspskel/mesh/build_mesh.h"
 #include "report.h"
 #include "stage_files.h"
 
@@ -46,6 +49,18 @@ void check_outputs(const ExtractSettings& settings) {
   if (!settings.stages.empty()) make_stage_folder(settings.stages);
 }
 
+bool writes_json(const ExtractSettings& settings) {
+  return std::any_of(settings.outputs.begin(), settings.outputs.end(), [](const std::string& output) {
+    return skeleton_format_of(output) == SkeletonFormat::kJson;
+  });
+}
+
+void add_losses(const ExtractSettings& settings, ExtractResult& result) {
+  for (const std::string& output : settings.outputs)
+    for (const std::string& loss : losses_of_format(result.skeleton, skeleton_format_of(output)))
+      result.warnings.push_back(output + ": " + loss);
+}
+
 void extract(const ExtractSettings& given, const Cancellation& cancellation, Terminal& terminal) {
   ExtractSettings settings = given;
   settings.options.execution.progress = [&](const char* stage, double fraction) {
@@ -56,22 +71,29 @@ void extract(const ExtractSettings& given, const Cancellation& cancellation, Ter
   ProgramSeconds seconds;
   check_outputs(settings);
 
-  const DefaultMesh mesh = read_mesh(settings.input);
+  BuiltMesh input = build_mesh_with_report(read_polygon_soup(settings.input));
   seconds.read = total.seconds();
   cancellation.throw_if_requested();
-  const ExtractResult result = extract_skeleton(mesh, settings.options);
+  ExtractResult result = extract_skeleton(input.mesh, settings.options);
+  result.warnings.insert(result.warnings.begin(), input.warnings.begin(), input.warnings.end());
+  add_losses(settings, result);
+  const bool reported = !settings.report.empty() || settings.verbose || writes_json(settings);
+  const Json facts = reported ? make_report(settings, result) : Json();
   cancellation.throw_if_requested();
 
   const Stopwatch writing;
-  for (const std::string& output : settings.outputs) write_skeleton(output, result.skeleton);
+  for (const std::string& output : settings.outputs)
+    write_skeleton(output, result.skeleton, reported ? report_text(facts) : "");
   if (!settings.stages.empty()) write_stage_files(settings.stages, result);
   seconds.write = writing.seconds();
   seconds.total = total.seconds();
   terminal.clear_progress();
   for (const std::string& warning : result.warnings) terminal.warning(warning);
-  const Json report = make_report(settings, result, seconds);
-  terminal.note(report["counts"].dump() + "\n" + report["seconds"].dump());
-  if (!settings.report.empty()) write_file(settings.report, report_text(report));
+  if (!reported) return;
+  const Json report = with_costs(facts, settings, result, seconds);
+  for (const char* part : {"input", "counts", "seconds", "skeleton", "checks"})
+    terminal.note(std::string(part) + " " + report_text(report[part], -1));
+  if (!settings.report.empty()) write_file_atomically(settings.report, report_text(report));
 }
 
 }  // namespace

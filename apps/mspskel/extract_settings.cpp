@@ -139,9 +139,9 @@ bool parse_extract_settings(const std::vector<std::string>& arguments, ExtractSe
   std::uint64_t seed = options.cone.seed;
 
   line.argument("IN", settings.input, "mesh (.off .obj .ply .stl), - for stdin");
-  line.arguments(
-      "OUT", settings.outputs,
-      "skeletons, by extension .skel .obj .ply .json; - for .skel on stdout; IN with .skel by default");
+  line.arguments("OUT", settings.outputs,
+                 "skeletons, by extension: .skel .obj .ply .json .swc .vtp .graphml .cgal .polylines.txt; - "
+                 "is .skel on stdout; IN with .skel by default");
   line.group("General");
   line.choice<Mode>("--mode", options.mode, {{"default", Mode::kDefault}, {"thesis", Mode::kThesis}},
                     "thesis: every formula and constant as printed; changes the defaults below");

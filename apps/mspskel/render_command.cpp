@@ -3,9 +3,10 @@
 
 #include "command_line.h"
 #include "commands.h"
-#include "files.h"
 #include "mspskel/base/error.h"
+#include "mspskel/io/atomic_file.h"
 #include "mspskel/io/read_mesh.h"
+#include "mspskel/io/read_skeleton.h"
 #include "mspskel/render/render.h"
 
 namespace mspskel::cli {
@@ -38,7 +39,7 @@ int render_command(const std::vector<std::string>& arguments) {
   RenderScene scene;
   scene.surface = read_polygon_soup(files.front());
   if (files.size() == 3) scene.skeleton = read_skeleton(files[1]);
-  write_file(files.back(), encode_png(render(scene, options, execution)));
+  write_file_atomically(files.back(), encode_png(render(scene, options, execution)));
   return 0;
 }
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "certificate.h"
+
 namespace mspskel::cli {
 namespace {
 
@@ -59,26 +61,36 @@ Json stage_seconds(const ExtractResult& result, const ProgramSeconds& program) {
 
 }  // namespace
 
-Json make_report(const ExtractSettings& settings, const ExtractResult& result,
-                 const ProgramSeconds& seconds) {
+Json make_report(const ExtractSettings& settings, const ExtractResult& result) {
   const GraphCounts graph = count_graph(result.skeleton);
-  Json report;
-  report["input"] = input_facts(settings, result);
-  report["options"] = settings.values;
-  report["counts"] = work_counts(result);
-  report["seconds"] = stage_seconds(result, seconds);
-  report["peak_memory_bytes"] = peak_memory_bytes();
-  report["skeleton"] = {{"nodes", graph.nodes},   {"edges", graph.edges},   {"components", graph.components},
-                        {"cycles", graph.cycles}, {"leaves", graph.leaves}, {"length", graph.length}};
-  const bool kept =
-      graph.components == report["input"]["components"] && graph.cycles == report["input"]["genus"];
-  report["checks"] = {{"b0", graph.components}, {"b1", graph.cycles}, {"topology", kept ? "kept" : "failed"}};
-  report["warnings"] = result.warnings;
-  return report;
+  const BoundingVolumeHierarchy solid(result.surface);
+  return {{"input", input_facts(settings, result)},
+          {"counts", work_counts(result)},
+          {"skeleton",
+           {{"nodes", graph.nodes},
+            {"edges", graph.edges},
+            {"components", graph.components},
+            {"cycles", graph.cycles},
+            {"leaves", graph.leaves},
+            {"length", graph.length}}},
+          {"checks", certificate_json(certify(result.surface, result.cocycles, solid, result.skeleton))},
+          {"warnings", result.warnings}};
 }
 
-std::string report_text(const Json& report) {
-  return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+Json with_costs(const Json& report, const ExtractSettings& settings, const ExtractResult& result,
+                const ProgramSeconds& seconds) {
+  return {{"input", report["input"]},
+          {"options", settings.values},
+          {"counts", report["counts"]},
+          {"seconds", stage_seconds(result, seconds)},
+          {"peak_memory_bytes", peak_memory_bytes()},
+          {"skeleton", report["skeleton"]},
+          {"checks", report["checks"]},
+          {"warnings", report["warnings"]}};
+}
+
+std::string report_text(const Json& report, int indent) {
+  return report.dump(indent, ' ', false, Json::error_handler_t::replace) + (indent < 0 ? "" : "\n");
 }
 
 }  // namespace mspskel::cli

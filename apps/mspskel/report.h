@@ -14,9 +14,16 @@ struct ProgramSeconds {
   double write = 0;
 };
 
-Json make_report(const ExtractSettings& settings, const ExtractResult& result, const ProgramSeconds& seconds);
+// What was found, the same on every run: input, counts, skeleton, checks, warnings. The checks hold the
+// topology certificate, which costs a test of the surface for self-intersections.
+Json make_report(const ExtractSettings& settings, const ExtractResult& result);
 
-// The JSON text, two spaces deep. Paths that are not UTF-8 get replacement characters.
-std::string report_text(const Json& report);
+// With what differs from run to run: options, seconds, peak memory.
+Json with_costs(const Json& report, const ExtractSettings& settings, const ExtractResult& result,
+                const ProgramSeconds& seconds);
+
+// The JSON text, indented by so many blanks, or on one line if negative. Paths that are not UTF-8 get
+// replacement characters.
+std::string report_text(const Json& report, int indent = 2);
 
 }  // namespace mspskel::cli

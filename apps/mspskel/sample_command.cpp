@@ -4,8 +4,8 @@
 
 #include "command_line.h"
 #include "commands.h"
-#include "files.h"
 #include "mspskel/base/error.h"
+#include "mspskel/io/write_mesh.h"
 #include "mspskel/samples/samples.h"
 
 namespace mspskel::cli {
@@ -30,7 +30,7 @@ int sample_command(const std::vector<std::string>& arguments) {
   CommandLine line("sample NAME [OUT] [options]", "Makes a closed triangle mesh whose skeleton is known.",
                    sample_list());
   line.argument("NAME", name, "the sample, see below")->required();
-  line.argument("OUT", output, "mesh file (.off .obj .ply .stl), - for stdout; NAME.off by default");
+  line.argument("OUT", output, "mesh (.off .obj .ply), - for .off on stdout; NAME.off by default");
   line.number("--resolution", options.resolution, {0, 1e8}, "wanted number of vertices; 0: the sample's own");
   line.number("--jitter", options.jitter, {0, 0.3},
               "random displacement of the vertices, in mean edge lengths");

@@ -1,0 +1,36 @@
+#include "certificate.h"
+
+namespace mspskel::cli {
+
+TopologyCertificate certify(const SurfaceSnapshot& surface, const VolumeCocycles& cocycles,
+                            const BoundingVolumeHierarchy& hierarchy, const CurveSkeleton& skeleton) {
+  PolylineGraph graph;
+  for (const SkeletonNode& node : skeleton.nodes)
+    graph.position.push_back(surface.frame.to_normalised(node.position));
+  graph.edges = skeleton.edges;
+  if (!skeleton.node_of_vertex.empty())
+    graph.component =
+        component_of_nodes(surface, static_cast<Index>(skeleton.nodes.size()), skeleton.node_of_vertex);
+  return certify_topology(surface, cocycles, hierarchy, graph);
+}
+
+Json certificate_json(const TopologyCertificate& c) {
+  return {{"b0", c.b0},
+          {"b1", c.b1},
+          {"topology", to_string(c.verdict)},
+          {"reason", c.reason},
+          {"components", c.components},
+          {"nested_components", c.nested_components},
+          {"genus", c.genus},
+          {"self_intersecting", c.self_intersecting},
+          {"discs", c.discs},
+          {"holed_regions", c.holed_regions},
+          {"linking", c.linking},
+          {"completions", c.completions},
+          {"cocycle_rank", c.cocycle_rank},
+          {"crossing_rank", c.crossing_rank},
+          {"inside", c.inside},
+          {"edges_not_inside", c.edges_not_inside}};
+}
+
+}  // namespace mspskel::cli

@@ -1,0 +1,16 @@
+// The topology certificate of a skeleton, wherever it comes from.
+#pragma once
+
+#include "command_line.h"
+#include "mspskel/collapse/topology_certificate.h"
+#include "mspskel/graph/curve_skeleton.h"
+
+namespace mspskel::cli {
+
+// `hierarchy` is that of the surface; the skeleton is in model units and may lack its surface map.
+TopologyCertificate certify(const SurfaceSnapshot& surface, const VolumeCocycles& cocycles,
+                            const BoundingVolumeHierarchy& hierarchy, const CurveSkeleton& skeleton);
+
+Json certificate_json(const TopologyCertificate& certificate);
+
+}  // namespace mspskel::cli
