@@ -1,5 +1,7 @@
 #pragma once
 
+#include "mspskel/graph/extend_ends.h"
+
 namespace mspskel {
 namespace detail {
 
@@ -62,12 +64,15 @@ inline Index aim_ends(ArcGraph& graph, const SurfaceSnapshot& surface, const Bou
     Arc& arc = graph.arcs[a];
     const bool reversed = arc.hub[1] == joint;
     const Index tip = arc.hub[reversed ? 0 : 1];
-    const Index v = detail::most_uncovered(surface, balls, parts.vertices[a], a, tip, step);
-    if (v == kNone) continue;
     const detail::Ball& hub = balls.hub[joint];
+    std::vector<Vector3> points = points_from(arc, reversed ? 1 : 0);
+    const double half_width =
+        detail::section_size(solid, points.back(), points.back() - detail::point_before_end(points, 3 * step))[0];
+    // The corners of a flat end are about a half width off, whichever way the arc points.
+    const Index v = detail::most_uncovered(surface, balls, parts.vertices[a], a, tip, std::max(step, 0.75 * half_width));
+    if (v == kNone) continue;
     const bool within = std::all_of(arc.points.begin(), arc.points.end(),
                                     [&](const Vector3& x) { return (x - hub.centre).norm() < hub.radius; });
-    std::vector<Vector3> points = points_from(arc, reversed ? 1 : 0);
     if (!detail::aim_arc(points, surface.position[v], within, solid, step)) continue;
     graph.hub_position[tip] = points.back();
     if (reversed) std::reverse(points.begin(), points.end());

@@ -101,19 +101,25 @@ struct ParentSlices {
   }
 };
 
-// Median half width and perimeter of the visible sections along an arc outside the joint's ball.
-inline std::array<double, 2> arc_sections(const Arc& arc, const Ball& joint,
-                                          const BoundingVolumeHierarchy& solid) {
+// Half width and perimeter of the visible section across a direction; zeros where there is none.
+inline std::array<double, 2> section_size(const BoundingVolumeHierarchy& solid, const Vector3& x, const Vector3& along) {
   constexpr int kRays = 16;
+  if (along.norm() == 0) return {0.0, 0.0};
+  const VisibleSection section = visible_section(solid, x, along.normalized(), kRays);
+  if (!section.closed) return {0.0, 0.0};
+  const double area = kPi * section.radius * section.radius;
+  const double perimeter = std::sqrt(4 * kPi * area / std::max(section.roundness, 1e-6));
+  return {slice_half_width(perimeter, area), perimeter};
+}
+
+// Medians over the points of an arc outside the joint's ball.
+inline std::array<double, 2> arc_sections(const Arc& arc, const Ball& joint, const BoundingVolumeHierarchy& solid) {
   std::vector<double> widths, perimeters;
   for (std::size_t i = 1; i + 1 < arc.points.size(); ++i) {
-    const Vector3 along = arc.points[i + 1] - arc.points[i - 1];
-    if ((arc.points[i] - joint.centre).norm() < joint.radius || along.norm() == 0) continue;
-    const VisibleSection section = visible_section(solid, arc.points[i], along.normalized(), kRays);
-    if (!section.closed) continue;
-    const double area = kPi * section.radius * section.radius;
-    const double perimeter = std::sqrt(4 * kPi * area / std::max(section.roundness, 1e-6));
-    widths.push_back(slice_half_width(perimeter, area));
+    if ((arc.points[i] - joint.centre).norm() < joint.radius) continue;
+    const auto [width, perimeter] = section_size(solid, arc.points[i], arc.points[i + 1] - arc.points[i - 1]);
+    if (perimeter == 0) continue;
+    widths.push_back(width);
     perimeters.push_back(perimeter);
   }
   return {value_at_rank(std::move(widths), 0.5), value_at_rank(std::move(perimeters), 0.5)};
@@ -143,39 +149,101 @@ inline LeafSignificance leaf_significance(const ArcGraph& graph, const SurfaceSn
   return s;
 }
 
+// Removes insignificant leaf arcs from a graph without through hubs, the weakest first.
+class LeafPruner {
+ public:
+  LeafPruner(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
+             const VertexSlices& slices, const PruningOptions& options)
+      : graph_(graph),
+        surface_(surface),
+        solid_(solid),
+        slices_(slices),
+        options_(options),
+        at_(graph.incidence()),
+        balls_(graph, solid),
+        parts_(graph, at_),
+        score_(parts_.leaves.size()),
+        stale_(parts_.leaves.size(), false) {
+    for (std::size_t i = 0; i < score_.size(); ++i) score_[i] = score(i);
+  }
+
+  // An arc that lies near a removed one waits for the next sweep: two arcs in one limb cover each other, so each looks
+  // insignificant, and only one may go. Arcs at the same joint are judged again at once, before the joint dissolves:
+  // where a limb forks into the corners of its end, all prongs go.
+  Index sweep() {
+    Index removed = 0;
+    while (true) {
+      const std::size_t weakest = weakest_leaf();
+      if (weakest == score_.size()) return removed;
+      const auto [arc, joint] = parts_.leaves[weakest];
+      remove_leaf_arc(graph_, arc, joint);
+      at_[joint].erase(std::find(at_[joint].begin(), at_[joint].end(), arc));
+      ++removed;
+      for (std::size_t i = 0; i < score_.size(); ++i) {
+        const auto [other, other_joint] = parts_.leaves[i];
+        if (!graph_.arcs[other].alive) continue;
+        if (other_joint == joint)
+          score_[i] = score(i);
+        else
+          stale_[i] = stale_[i] || near(arc, other);
+      }
+    }
+  }
+
+ private:
+  // Below 1: insignificant.
+  double score(std::size_t i) const {
+    const auto [arc, joint] = parts_.leaves[i];
+    const LeafSignificance s =
+        leaf_significance(graph_, surface_, solid_, slices_, balls_, parts_, at_[joint], arc, joint);
+    return std::min(options_.significance > 0 ? s.value() / options_.significance : 1.0,
+                    options_.smallest > 0 ? s.depth / options_.smallest : 1.0);
+  }
+
+  std::size_t weakest_leaf() const {
+    std::size_t best = score_.size();
+    for (std::size_t i = 0; i < score_.size(); ++i) {
+      const auto [arc, joint] = parts_.leaves[i];
+      if (!graph_.arcs[arc].alive || stale_[i] || score_[i] >= 1.0 || at_[joint].size() < 2) continue;
+      if (best == score_.size() || score_[i] < score_[best]) best = i;
+    }
+    return best;
+  }
+
+  bool near(Index a, Index b) const {
+    for (const Ball& p : balls_.arc[a])
+      for (const Ball& q : balls_.arc[b])
+        if ((p.centre - q.centre).norm() < p.radius + q.radius) return true;
+    return false;
+  }
+
+  ArcGraph& graph_;
+  const SurfaceSnapshot& surface_;
+  const BoundingVolumeHierarchy& solid_;
+  const VertexSlices& slices_;
+  const PruningOptions& options_;
+  std::vector<std::vector<Index>> at_;
+  ArcBalls balls_;
+  ArcParts parts_;
+  std::vector<double> score_;
+  std::vector<bool> stale_;
+};
+
 }  // namespace detail
 
 inline double LeafSignificance::value() const {
   return half_width > 0 ? depth / half_width * std::sqrt(std::min(msp_ratio, 9.0)) : 0.0;
 }
 
-inline Index prune_branches(ArcGraph& graph, const SurfaceSnapshot& surface,
-                            const BoundingVolumeHierarchy& solid, const VertexSlices& slices,
-                            const PruningOptions& options) {
+inline Index prune_branches(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
+                            const VertexSlices& slices, const PruningOptions& options) {
   validate(options);
   Index removed = 0;
   while (true) {
     dissolve_through_hubs(graph);
-    const auto at = graph.incidence();
-    const detail::ArcBalls balls(graph, solid);
-    const detail::ArcParts parts(graph, at);
-    // The weakest leaf of each joint goes in one sweep: those of different joints hardly depend on one
-    // another.
-    std::vector<std::pair<double, Index>> weakest(graph.hub_position.size(), {1.0, kNone});
-    for (const auto& [a, joint] : parts.leaves) {
-      const LeafSignificance s =
-          detail::leaf_significance(graph, surface, solid, slices, balls, parts, at[joint], a, joint);
-      const double score = std::min(options.significance > 0 ? s.value() / options.significance : 1.0,
-                                    options.smallest > 0 ? s.depth / options.smallest : 1.0);
-      if (score < weakest[joint].first) weakest[joint] = {score, a};
-    }
-    const Index before = removed;
-    for (Index h = 0; h < graph.hub_count(); ++h)
-      if (weakest[h].second != kNone) {
-        remove_leaf_arc(graph, weakest[h].second, h);
-        ++removed;
-      }
-    if (removed == before) return removed;
+    const Index swept = detail::LeafPruner(graph, surface, solid, slices, options).sweep();
+    if (swept == 0) return removed;
+    removed += swept;
   }
 }
 
