@@ -8,9 +8,11 @@
 #include "mspskel/base/progress.h"
 #include "mspskel/center/skeleton_mesh.h"
 #include "mspskel/center/spatial_coherence.h"
-#include "mspskel/collapse/skeleton_decimater.h"
+#include "mspskel/collapse/collapse_skeleton_mesh.h"
 #include "mspskel/collapse/volume_cocycles.h"
+#include "mspskel/graph/branch_filter.h"
 #include "mspskel/graph/collapsed_arcs.h"
+#include "mspskel/graph/make_curve_skeleton.h"
 #include "mspskel/graph/refine_arcs.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/slice/cone_refinement.h"
@@ -38,6 +40,8 @@ struct ExtractOptions {
   CoherenceOptions coherence;
   CocycleOptions cocycles;
   CollapseOptions collapse;
+  bool filter_branches = false;  // thesis 6.1; refinement has a finer way
+  BranchFilterOptions filter;    // of filter_branches
   RefinementOptions refinement;
   Execution execution;
 };
@@ -58,7 +62,8 @@ struct ExtractResult {
   VertexSlices slices;
   SkeletonMesh skeleton_mesh;
   VolumeCocycles cocycles;
-  CollapsedSkeleton collapsed;
+  CollapsedSkeleton collapsed;  // after branch filtering, if that is on
+  BranchFilterResult filter;    // its counts; its skeleton is moved to `collapsed`
   RefinementCounts refinement;
   std::vector<std::pair<std::string, double>> seconds;  // stage, wall seconds
   std::vector<std::string> warnings;

@@ -8,13 +8,13 @@ import re
 import sys
 
 LAYERS = ["base", "mesh", "slice", "center", "collapse", "graph", "io", "samples", "render"]
-TOP = len(LAYERS)  # headers directly in include/mspskel see every folder
+TOP = len(LAYERS)  # headers directly in include/mspskel, and their detail, see every folder
 
 
 def layer(path):
     """The place in LAYERS of 'mspskel/<folder>/...'; None for a folder that the list does not know."""
     parts = path.split("/")
-    if len(parts) == 2:
+    if len(parts) == 2 or parts[1] == "detail":
         return TOP
     return LAYERS.index(parts[1]) if parts[1] in LAYERS else None
 

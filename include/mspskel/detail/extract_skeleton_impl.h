@@ -41,15 +41,6 @@ inline void run_slice_stages(const SliceTracer& tracer, const ExtractOptions& op
   clock.lap("slice_error");
 }
 
-inline std::vector<MergingSet> merging_sets(const SkeletonMesh& mesh) {
-  std::vector<MergingSet> sets;
-  sets.reserve(mesh.position.size());
-  for (Index v = 0; v < mesh.vertex_count(); ++v)
-    sets.emplace_back(MergingVertex{mesh.position[v], mesh.perimeter[v], mesh.normal[v], mesh.error[v],
-                                    mesh.area[v], mesh.valid[v] != 0});
-  return sets;
-}
-
 inline void report_shells(const ExtractResult& result, std::vector<std::string>& warnings) {
   if (result.skeleton_mesh.without_slice > 0)
     warnings.push_back(std::to_string(result.skeleton_mesh.without_slice) +
@@ -80,6 +71,7 @@ inline ExtractOptions thesis_options() {
   o.error = {SliceErrorAverage::kMean, SliceErrorScale::kMinMax};
   o.points.point.method = SkeletalPointMethod::kSampledForce;
   o.coherence.enabled = false;
+  o.filter_branches = true;
   o.refinement.enabled = false;
   return o;
 }
@@ -92,6 +84,7 @@ inline void validate(const ExtractOptions& options) {
   validate(options.coherence);
   validate(options.cocycles);
   validate(options.collapse);
+  validate(options.filter);
   validate(options.refinement);
 }
 
@@ -117,17 +110,24 @@ inline ExtractResult extract_skeleton_of_snapshot(SurfaceSnapshot surface, const
   result.cocycles = compute_volume_cocycles(s, slice_candidates(result.slices), options.cocycles,
                                             options.execution.progress);
   clock.lap("cocycles");
-  result.collapsed =
-      collapse_complex(make_complex(s, result.cocycles.label), detail::merging_sets(result.skeleton_mesh),
-                       options.collapse, options.execution);
+  result.collapsed = collapse_skeleton_mesh(s, result.skeleton_mesh, result.cocycles.label, options.collapse,
+                                            options.execution);
   clock.lap("collapse");
-  ArcGraph arcs = make_arc_graph(result.collapsed);
+  if (options.filter_branches) {
+    result.filter = filter_branches(result.collapsed, options.filter);
+    result.collapsed = std::move(result.filter.skeleton);
+    clock.lap("filter");
+  }
   if (options.refinement.enabled) {
+    ArcGraph arcs = make_arc_graph(result.collapsed);
     result.refinement = refine_arcs(arcs, s, solid, result.slices, options.refinement, options.execution);
     clock.lap("arcs");
+    result.skeleton = make_curve_skeleton(arcs, s, solid, result.skeleton_mesh.perimeter,
+                                          result.skeleton_mesh.error, options.execution);
+  } else {
+    result.skeleton = make_curve_skeleton(result.collapsed, s.frame);
+    set_radii(s, solid, result.skeleton, options.execution);
   }
-  result.skeleton = make_curve_skeleton(arcs, s, solid, result.skeleton_mesh.perimeter,
-                                        result.skeleton_mesh.error, options.execution);
   clock.lap("result");
   detail::report_shells(result, result.warnings);
   return result;

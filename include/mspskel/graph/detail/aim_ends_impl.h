@@ -66,10 +66,11 @@ inline Index aim_ends(ArcGraph& graph, const SurfaceSnapshot& surface, const Bou
     const Index tip = arc.hub[reversed ? 0 : 1];
     const detail::Ball& hub = balls.hub[joint];
     std::vector<Vector3> points = points_from(arc, reversed ? 1 : 0);
-    const double half_width =
-        detail::section_size(solid, points.back(), points.back() - detail::point_before_end(points, 3 * step))[0];
+    const double half_width = detail::section_size(
+        solid, points.back(), points.back() - detail::point_before_end(points, 3 * step))[0];
     // The corners of a flat end are about a half width off, whichever way the arc points.
-    const Index v = detail::most_uncovered(surface, balls, parts.vertices[a], a, tip, std::max(step, 0.75 * half_width));
+    const Index v =
+        detail::most_uncovered(surface, balls, parts.vertices[a], a, tip, std::max(step, 0.75 * half_width));
     if (v == kNone) continue;
     const bool within = std::all_of(arc.points.begin(), arc.points.end(),
                                     [&](const Vector3& x) { return (x - hub.centre).norm() < hub.radius; });

@@ -102,7 +102,8 @@ struct ParentSlices {
 };
 
 // Half width and perimeter of the visible section across a direction; zeros where there is none.
-inline std::array<double, 2> section_size(const BoundingVolumeHierarchy& solid, const Vector3& x, const Vector3& along) {
+inline std::array<double, 2> section_size(const BoundingVolumeHierarchy& solid, const Vector3& x,
+                                          const Vector3& along) {
   constexpr int kRays = 16;
   if (along.norm() == 0) return {0.0, 0.0};
   const VisibleSection section = visible_section(solid, x, along.normalized(), kRays);
@@ -113,7 +114,8 @@ inline std::array<double, 2> section_size(const BoundingVolumeHierarchy& solid, 
 }
 
 // Medians over the points of an arc outside the joint's ball.
-inline std::array<double, 2> arc_sections(const Arc& arc, const Ball& joint, const BoundingVolumeHierarchy& solid) {
+inline std::array<double, 2> arc_sections(const Arc& arc, const Ball& joint,
+                                          const BoundingVolumeHierarchy& solid) {
   std::vector<double> widths, perimeters;
   for (std::size_t i = 1; i + 1 < arc.points.size(); ++i) {
     if ((arc.points[i] - joint.centre).norm() < joint.radius) continue;
@@ -167,9 +169,9 @@ class LeafPruner {
     for (std::size_t i = 0; i < score_.size(); ++i) score_[i] = score(i);
   }
 
-  // An arc that lies near a removed one waits for the next sweep: two arcs in one limb cover each other, so each looks
-  // insignificant, and only one may go. Arcs at the same joint are judged again at once, before the joint dissolves:
-  // where a limb forks into the corners of its end, all prongs go.
+  // An arc that lies near a removed one waits for the next sweep: two arcs in one limb cover each other, so
+  // each looks insignificant, and only one may go. Arcs at the same joint are judged again at once, before
+  // the joint dissolves: where a limb forks into the corners of its end, all prongs go.
   Index sweep() {
     Index removed = 0;
     while (true) {
@@ -235,8 +237,9 @@ inline double LeafSignificance::value() const {
   return half_width > 0 ? depth / half_width * std::sqrt(std::min(msp_ratio, 9.0)) : 0.0;
 }
 
-inline Index prune_branches(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
-                            const VertexSlices& slices, const PruningOptions& options) {
+inline Index prune_branches(ArcGraph& graph, const SurfaceSnapshot& surface,
+                            const BoundingVolumeHierarchy& solid, const VertexSlices& slices,
+                            const PruningOptions& options) {
   validate(options);
   Index removed = 0;
   while (true) {
