@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "mspskel/collapse/complex_topology.h"
-#include "mspskel/collapse/detail/flat_regions.h"
-#include "mspskel/collapse/detail/linking_cocycles.h"
+#include "mspskel/collapse/crossing_labels.h"
 #include "mspskel/mesh/mesh_report.h"
 #include "mspskel/mesh/self_intersection.h"
 
@@ -39,53 +38,6 @@ inline std::vector<Index> pieces(const PolylineGraph& graph) {
   return piece;
 }
 
-// Signed crossings of each edge with a flat region: +1 from the plane's negative to its positive side.
-inline void add_region_crossings(const VolumeCocycle& cocycle, Index row, const PolylineGraph& graph,
-                                 std::vector<CocycleLabel>& label) {
-  const PlaneFrame frame(cocycle.plane.normal);
-  std::vector<std::vector<Eigen::Vector2d>> polygons;
-  for (const Contour& contour : cocycle.contours) {
-    polygons.emplace_back();
-    for (const Vector3& p : contour.point) polygons.back().push_back(frame(p));
-  }
-  for (std::size_t e = 0; e < graph.edges.size(); ++e) {
-    const Vector3 &a = graph.position[graph.edges[e][0]], &b = graph.position[graph.edges[e][1]];
-    const double from = cocycle.plane.signed_distance(a), to = cocycle.plane.signed_distance(b);
-    if ((from >= 0) == (to >= 0)) continue;
-    const Eigen::Vector2d x = frame(a + from / (from - to) * (b - a));
-    bool inside = false;
-    for (const auto& polygon : polygons) inside = inside != inside_polygon(polygon, x);
-    if (inside) label[e] += CocycleLabel::unit(row, to >= 0 ? 1 : -1);
-  }
-}
-
-// Crossings of each edge with a loop outside the solid, seen along some direction: above as component `row`,
-// below, negated, as component `row + rank`. Round a cycle both sums are the linking number. False if no
-// direction gives a clear view.
-inline bool add_loop_crossings(const VolumeCocycle& cocycle, Index row, Index rank,
-                               const PolylineGraph& graph, std::vector<CocycleLabel>& label) {
-  constexpr int kDirections = 12;
-  for (int attempt = 0; attempt < kDirections; ++attempt) {
-    const View view(view_direction(attempt));
-    std::vector<Vector3> loop, node;
-    for (const Vector3& p : cocycle.loop) loop.push_back(view(p));
-    for (const Vector3& p : graph.position) node.push_back(view(p));
-    std::vector<CrossingCount> count(graph.edges.size());
-    bool clear = true;
-    for (std::size_t e = 0; e < graph.edges.size() && clear; ++e)
-      for (std::size_t i = 0; i < loop.size() && clear; ++i)
-        clear = count_crossing(loop[i], loop[i + 1 == loop.size() ? 0 : i + 1], node[graph.edges[e][0]],
-                               node[graph.edges[e][1]], count[e]);
-    if (!clear) continue;
-    for (std::size_t e = 0; e < graph.edges.size(); ++e) {
-      label[e] += CocycleLabel::unit(row, static_cast<std::int32_t>(count[e].above));
-      label[e] += CocycleLabel::unit(row + rank, static_cast<std::int32_t>(-count[e].below));
-    }
-    return true;
-  }
-  return false;
-}
-
 struct CycleCrossings {
   Index cycles = 0, rank = 0;
   bool clear = true;  // false: rounding left a doubt
@@ -93,34 +45,37 @@ struct CycleCrossings {
 
 // A piece counts for the cocycles of its own component only: a disc of an outer shell reaches through the
 // shells inside it.
-inline CycleCrossings cross_cycles(const VolumeCocycles& cocycles, const PolylineGraph& graph,
-                                   const std::vector<Index>& component) {
+inline CycleCrossings cross_cycles_along(const CrossingLabels& crossings, const PolylineGraph& graph,
+                                         const std::vector<Index>& component) {
   CycleCrossings result;
-  std::vector<CocycleLabel> label(graph.edges.size());
-  for (Index row = 0; row < cocycles.rank; ++row) {
-    const VolumeCocycle& cocycle = cocycles.cocycle[row];
-    if (cocycle.source == CocycleSource::kDisc || cocycle.source == CocycleSource::kHoledRegion)
-      add_region_crossings(cocycle, row, graph, label);
-    else if (cocycle.source == CocycleSource::kLinking)
-      result.clear = add_loop_crossings(cocycle, row, cocycles.rank, graph, label) && result.clear;
-  }
-  LabelledForest forest(static_cast<Index>(graph.position.size()));
+  LabelledForest above(static_cast<Index>(graph.position.size())), below = above;
   LabelRank rank;
-  CocycleLabel loop;
-  for (std::size_t e = 0; e < graph.edges.size(); ++e) {
-    if (forest.join(graph.edges[e][0], graph.edges[e][1], label[e], loop)) continue;
+  CocycleLabel loop, check;
+  for (const auto& [a, b] : graph.edges) {
+    const Vector3 &p = graph.position[a], &q = graph.position[b];
+    const CocycleLabel label = crossings(p, q, result.clear);
+    below.join(a, b, crossings.from_below(p, q, result.clear), check);
+    if (above.join(a, b, label, loop)) continue;
     ++result.cycles;
-    CocycleLabel crossings;
-    for (Index row = 0; row < cocycles.rank; ++row) {
-      const VolumeCocycle& cocycle = cocycles.cocycle[row];
-      if (cocycle.component != component[graph.edges[e][0]]) continue;
-      crossings += CocycleLabel::unit(row, loop[row]);
-      if (cocycle.source == CocycleSource::kLinking && loop[row] != loop[row + cocycles.rank])
-        result.clear = false;
-    }
-    rank.insert(crossings);
+    CocycleLabel own;
+    for (const auto& [row, value] : loop.entries())
+      if (crossings.component(row) == component[a]) own += CocycleLabel::unit(row, value);
+    for (Index row = 0; row < crossings.rank(); ++row)
+      if (crossings.component(row) == component[a] && loop[row] != check[row]) result.clear = false;
+    rank.insert(own);
   }
   result.rank = rank.rank();
+  return result;
+}
+
+inline CycleCrossings cross_cycles(const VolumeCocycles& cocycles, const PolylineGraph& graph,
+                                   const std::vector<Index>& component) {
+  constexpr int kDirections = 12;
+  CycleCrossings result;
+  for (int attempt = 0; attempt < kDirections; ++attempt) {
+    result = cross_cycles_along(CrossingLabels(cocycles, attempt), graph, component);
+    if (result.clear) break;
+  }
   return result;
 }
 
