@@ -115,8 +115,9 @@ struct Order {
 }
 
 void complete_count(const SampleInfo& info, SampleOptions& options) {
-  if (options.count != 0 && info.count_of.empty()) throw UsageError("sample " + info.name + " has no count");
-  if (options.count == 0) options.count = info.count;
+  if (options.count != kNone && info.count_of.empty())
+    throw UsageError("sample " + info.name + " has no count");
+  if (options.count == kNone) options.count = info.count;
   if (options.count < info.least_count || options.count > info.most_count)
     out_of_range(info, "count (" + info.count_of + ")", std::to_string(info.least_count),
                  std::to_string(info.most_count));

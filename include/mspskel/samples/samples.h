@@ -13,8 +13,8 @@ struct SampleOptions {
   Index resolution = 0;    // wanted number of vertices, met to about 20 %; 0: the sample's default
   double jitter = 0;       // random displacement of every vertex, in mean edge lengths, [0, 0.3]
   std::uint64_t seed = 1;  // of jitter and of the vertices' places on the surface
-  Index count = 0;   // what it counts is the sample's affair (SampleInfo::count_of); 0: the sample's default
-  double ratio = 0;  // of two of its lengths (SampleInfo::ratio_of); 0: the sample's default
+  Index count = kNone;     // what it counts is the sample's affair (SampleInfo::count_of); kNone: its default
+  double ratio = 0;        // of two of its lengths (SampleInfo::ratio_of); 0: the sample's default
 };
 
 struct SampleInfo {
@@ -34,14 +34,14 @@ struct SampleInfo {
 // All samples in the order of their names, with the facts for default options.
 std::vector<SampleInfo> list_samples();
 
-// The facts of one sample for given options: genus, components and leaves follow the count. Only the sample's
-// own defaults stand in for zeros. Throws UsageError for an unknown name (naming the nearest one) or a value
-// out of range.
+// The facts of one sample for given options: genus, components, leaves and the default and least resolution
+// follow from count and ratio. Throws UsageError for an unknown name (naming the nearest one) or a value out
+// of range.
 SampleInfo describe_sample(const std::string& name, const SampleOptions& options = {});
 
 // Makes the sample: closed, manifold, oriented outward (cavities inward), without self-intersections while
-// jitter is 0, no larger than about 10 in each direction. The same arguments give the same bytes. Throws
-// UsageError as describe_sample does, and where the resolution is too low for the shape.
+// jitter is 0. The same arguments give the same bytes. Throws UsageError as describe_sample does, and where
+// the resolution is too low for the shape.
 PolygonSoup make_sample(const std::string& name, const SampleOptions& options = {});
 
 }  // namespace mspskel
