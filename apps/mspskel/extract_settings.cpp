@@ -43,8 +43,10 @@ void add_slice_options(CommandLine& line, ExtractOptions& options, int& planes) 
                            "search: local search from a few planes; sampling: all planes, then cones");
   line.number("--slices", planes, {1, 1000},
               "planes tried at a vertex; where search begins, or all of sampling");
-  line.number("--search-rounds", options.search.rounds, {0, 100},
-              "search: times that a vertex looks at its neighbours' planes");
+  line.number("--search-spread", options.search.spread, {0, 1000},
+              "search: planes over all angles and tilts tried at a vertex");
+  line.number("--search-rounds", options.search.rounds, {0, 1000},
+              "search: most rounds in which vertices look at their neighbours' planes");
   line.number("--search-tilt", options.search.max_tilt, {0, 89},
               "search: largest angle between plane and vertex normal, degrees");
   line.toggle("cone", options.cone.enabled, "sampling: try more planes where the slice error is high");
@@ -111,15 +113,18 @@ void add_collapse_options(CommandLine& line, ExtractOptions& options) {
                              "of the edges that collapse");
   line.toggle("keep-topology", collapse.keep_topology,
               "refuse what would lose or make a handle; without it, the thesis's literal behaviour");
+  line.toggle("filter", options.filter_branches,
+              "drop branches that do not leave their joint's ball, merge joints (thesis 6.1)");
+  line.number("--filter-ball", options.filter.ball_scale, {0, 100}, "filter: the ball, in radii MSP / 2 pi");
 }
 
-void add_arc_options(CommandLine& line, ExtractOptions& options, double& step) {
+void add_arc_options(CommandLine& line, ExtractOptions& options, double& step, double& detail) {
   RefinementOptions& refinement = options.refinement;
   line.group("Arcs; lengths are shares of the model's extent");
   line.toggle("refine", refinement.enabled, "lead arcs inside, prune, centre and extend them");
   line.number("--step", step, {0.0005, 0.5}, "distance of the nodes along an arc");
-  line.number("--detail", refinement.pruning.protrusion, {0, 100},
-              "a branch stays if it reaches this many of its widths out of the rest");
+  line.number("--detail", detail, {0.01, 100},
+              "2 keeps branches half as significant as 1 does, 0.5 only those twice as significant");
   line.number("--smallest", refinement.pruning.smallest, {0, 1}, "features below this size are noise");
   line.number("--centring-rounds", refinement.centering.rounds, {0, 100}, "of sections and solves");
   line.number("--smoothness", refinement.centering.smoothness, {0, 1e6}, "weight of straight arcs");
@@ -154,11 +159,11 @@ bool parse_extract_settings(const std::vector<std::string>& arguments, ExtractSe
   line.flag("-v,--verbose", settings.verbose, "a word about every stage");
   line.flag("--version", version, "print the version and the libraries' versions and exit");
   int planes = options.slices == SliceMethod::kSearch ? options.search.angles : options.sampling.planes;
-  double step = options.refinement.centering.step;
+  double step = options.refinement.centering.step, detail = 1;
   add_slice_options(line, options, planes);
   add_point_options(line, options);
   add_collapse_options(line, options);
-  add_arc_options(line, options, step);
+  add_arc_options(line, options, step, detail);
   if (!line.parse(arguments)) return false;
   if (version) {
     std::cout << version_text();
@@ -169,6 +174,7 @@ bool parse_extract_settings(const std::vector<std::string>& arguments, ExtractSe
   if (line.given("--slices")) options.search.angles = options.sampling.planes = planes;
   if (line.given("--step")) options.refinement.centering.step = options.refinement.extension.step = step;
   options.execution.threads = settings.threads;
+  options.refinement.pruning.significance /= detail;
   settings.values = line.values();
   if (settings.outputs.empty())
     settings.outputs.push_back(
