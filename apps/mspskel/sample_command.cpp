@@ -34,7 +34,7 @@ int sample_command(const std::vector<std::string>& arguments) {
   line.number("--resolution", options.resolution, {0, 1e8}, "wanted number of vertices; 0: the sample's own");
   line.number("--jitter", options.jitter, {0, 0.3},
               "random displacement of the vertices, in mean edge lengths");
-  line.number("--count", options.count, {0, 1e6}, "what the list below says; 0: the sample's own");
+  line.number("--count", options.count, {-1, 1e6}, "what the list below says; -1: the sample's own");
   line.number("--ratio", options.ratio, {0, 1e6}, "what the list below says; 0: the sample's own");
   line.number("--seed", options.seed, kSeedRange, "of the places of the vertices");
   if (!line.parse(arguments)) return 0;
