@@ -106,6 +106,14 @@ inline void check_vertex_fans(const SurfaceSnapshot& s) {
   }
 }
 
+// What follows from the half-edges and the normalised positions.
+inline void complete_snapshot(SurfaceSnapshot& s) {
+  s.vertex_halfedge.assign(s.position.size(), kNone);
+  for (Index h = s.halfedge_count() - 1; h >= 0; --h) s.vertex_halfedge[s.origin[h]] = h;
+  measure_vertices(s);
+  number_components(s);
+}
+
 }  // namespace detail
 
 template <class Mesh>
@@ -141,8 +149,7 @@ SurfaceSnapshot make_snapshot(const Mesh& mesh) {
   }
   detail::check_vertex_fans(s);
   detail::normalise(s);
-  detail::measure_vertices(s);
-  detail::number_components(s);
+  detail::complete_snapshot(s);
   return s;
 }
 
