@@ -10,6 +10,11 @@ import sys
 MARKUP = str.maketrans({"\\": "\\\\", "@": "\\@", "<": "\\<", ">": "\\>", "#": "\\#"})
 
 
+def text(line):
+    """A line of prose; `::` would ask for a link."""
+    return line.translate(MARKUP).replace("::", "\\::")
+
+
 def comment_block(lines):
     """One block comment for consecutive // lines, given without their slashes."""
     yield "/*!"
@@ -18,14 +23,14 @@ def comment_block(lines):
         if not blank and any(line.startswith("    ") for line in paragraph):
             yield from ["\\verbatim", *paragraph, "\\endverbatim"]
         else:
-            yield from (line.translate(MARKUP) for line in paragraph)
+            yield from (text(line) for line in paragraph)
     yield "*/"
 
 
 def code_line(line):
     behind = re.match(r"^(\s*\S.*?[;,}])\s+// ?(.*)$", line)
     if behind and not behind.group(1).lstrip().startswith("}"):
-        return f"{behind.group(1)}  ///< {behind.group(2).translate(MARKUP)}"
+        return f"{behind.group(1)}  ///< {text(behind.group(2))}"
     return line
 
 

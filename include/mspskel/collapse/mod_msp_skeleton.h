@@ -19,12 +19,14 @@ namespace mspskel {
 // total cost of Eq. 4.4, the remaining vertex takes over the merging set of the removed one and moves to the
 // place of Eq. 4.6.
 //
-//   OpenMesh::Decimater::DecimaterT<Mesh> decimater(mesh);
-//   ModMspSkeletonT<Mesh>::Handle handle;
-//   decimater.add(handle);
-//   decimater.module(handle).set_vertices(vertices);   // before initialize(), one MergingVertex a mesh
-//   vertex decimater.initialize(); decimater.decimate_to(100); const std::vector<Index> node =
-//   decimater.module(handle).node_of_vertex();  // before garbage_collection()
+//     OpenMesh::Decimater::DecimaterT<Mesh> decimater(mesh);
+//     ModMspSkeletonT<Mesh>::Handle handle;
+//     decimater.add(handle);
+//     auto& module = decimater.module(handle);
+//     module.set_vertices(vertices);  // one MergingVertex a mesh vertex
+//     decimater.initialize();
+//     decimater.decimate_to(100);
+//     const std::vector<Index> node = module.node_of_vertex();  // before garbage_collection()
 //
 // It computes the same values as SkeletonDecimater for the same merging sets, but it does not make a
 // skeleton: OpenMesh keeps a two-manifold with at least a tetrahedron a component, so no edge ever loses its
