@@ -48,8 +48,9 @@ inline bool aim_arc(std::vector<Vector3>& points, const Vector3& target, bool wi
     points.resize(1);
   else if (!sees(points.back()))
     return false;
+  const std::size_t before = points.size();
   lead_towards(points, target, solid, step);
-  return points.size() > 1;
+  return points.size() > before;
 }
 
 }  // namespace detail

@@ -71,18 +71,40 @@ inline std::vector<Vector3> smooth_tangents(const ArcPoints& points, int smoothi
   return tangent;
 }
 
+// The arc at even steps; where a step would cut a corner through the surface, the corner stays between.
+inline std::vector<Vector3> resampled_inside(const Arc& arc, double step,
+                                             const BoundingVolumeHierarchy& solid) {
+  const std::vector<Vector3> even = resampled(arc, step);
+  const double share = arc_length(arc) / static_cast<double>(even.size() - 1);
+  std::vector<Vector3> points{even.front()};
+  std::size_t corner = 0;
+  double walked = 0;  // from the start to the corner
+  const auto pass = [&] {
+    ++corner;
+    walked += (arc.points[corner] - arc.points[corner - 1]).norm();
+  };
+  for (std::size_t k = 1; k < even.size(); ++k) {
+    const double from = share * static_cast<double>(k - 1), to = share * static_cast<double>(k);
+    while (corner + 1 < arc.points.size() && walked <= from) pass();
+    if (solid.segment_crosses(even[k - 1], even[k]))
+      for (; corner + 1 < arc.points.size() && walked < to; pass()) points.push_back(arc.points[corner]);
+    points.push_back(even[k]);
+  }
+  return points;
+}
+
 // The move of every point towards its goal, shortened until no edge of the graph meets the surface that did
-// not before. Standing still is always allowed, so this ends.
+// not before. Each attempt after the first ones stops a point for good, so this ends.
 inline void move_inside(ArcPoints& points, const BoundingVolumeHierarchy& solid,
                         const std::vector<Vector3>& goal) {
   std::vector<double> share(points.x.size(), 1.0);
   const auto moved = [&](Index i) -> Vector3 { return points.x[i] + share[i] * (goal[i] - points.x[i]); };
-  std::vector<std::array<Index, 2>> edges, suspects;
+  std::vector<std::array<Index, 2>> edges;
   for (const auto& chain : points.chains)
     for (std::size_t i = 1; i < chain.size(); ++i) edges.push_back({chain[i - 1], chain[i]});
-  std::vector<bool> crossed(edges.size());
-  for (int attempt = 0; attempt < 40; ++attempt) {
-    bool changed = false;
+  bool changed = true;
+  for (int attempt = 0; changed; ++attempt) {
+    changed = false;
     for (std::size_t e = 0; e < edges.size(); ++e) {
       const auto [a, b] = edges[e];
       if (share[a] == 0 && share[b] == 0) continue;
@@ -90,7 +112,6 @@ inline void move_inside(ArcPoints& points, const BoundingVolumeHierarchy& solid,
       for (const Index i : {a, b}) share[i] = attempt < 4 ? 0.5 * share[i] : 0.0;
       changed = true;
     }
-    if (!changed) break;
   }
   for (Index i = 0; i < points.count(); ++i) points.x[i] = moved(i);
 }
@@ -181,7 +202,7 @@ inline void center_arcs(ArcGraph& graph, const BoundingVolumeHierarchy& solid,
   validate(options);
   for (int round = 0; round < options.rounds; ++round) {
     for (Arc& arc : graph.arcs)
-      if (arc.alive) arc.points = resampled(arc, options.step);
+      if (arc.alive) arc.points = detail::resampled_inside(arc, options.step, solid);
     detail::ArcPoints points(graph);
     const auto tangent = detail::smooth_tangents(points, options.tangent_smoothing);
     std::vector<detail::Pull> pulls(points.x.size());

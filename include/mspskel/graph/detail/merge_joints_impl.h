@@ -14,9 +14,8 @@ inline void enter_ball(Arc& arc, int end, const Vector3& centre, double radius) 
     ++first_outside;
   // Keep the last point inside: from there on the arc is as it was.
   const std::size_t keep = first_outside > 1 ? first_outside - 1 : first_outside;
-  const bool old_end_inside = (arc.points.front() - centre).norm() < radius;
   std::vector<Vector3> points{centre};
-  if (first_outside == 1 && old_end_inside) points.push_back(arc.points.front());
+  if (first_outside == 1) points.push_back(arc.points.front());
   points.insert(points.end(), arc.points.begin() + static_cast<std::ptrdiff_t>(keep), arc.points.end());
   arc.points = std::move(points);
   if (end == 1) std::reverse(arc.points.begin(), arc.points.end());
@@ -41,6 +40,10 @@ inline Index merge_joints(ArcGraph& graph, const BoundingVolumeHierarchy& solid,
       const double reach = overlap * std::min(radius[arc.hub[0]], radius[arc.hub[1]]);
       // An arc that leaves the balls goes round something and is no connection within them.
       if (distance >= reach || distance >= shortest || arc_length(arc) > 3 * std::max(reach, distance))
+        continue;
+      // Balls that overlap by less than a joint may have the surface between their centres.
+      if (distance >= std::max(radius[arc.hub[0]], radius[arc.hub[1]]) &&
+          solid.segment_crosses(arc.points.front(), arc.points.back()))
         continue;
       // Contracting one of two parallel arcs would make a loop of the other.
       bool parallel = false;

@@ -29,10 +29,12 @@ class InnerGraph {
   bool usable(Index v) const { return clearance_[v] > 0; }
   const Vector3& point(Index v) const { return point_[v]; }
 
-  Index nearest(const Vector3& x) const {
+  // Of one component's points, or of all if that is kNone.
+  Index nearest(const Vector3& x, Index component) const {
     Index best = kNone;
     for (Index v = 0; v < surface_.vertex_count(); ++v)
-      if (usable(v) && (best == kNone || (point_[v] - x).squaredNorm() < (point_[best] - x).squaredNorm()))
+      if (usable(v) && (component == kNone || surface_.component[v] == component) &&
+          (best == kNone || (point_[v] - x).squaredNorm() < (point_[best] - x).squaredNorm()))
         best = v;
     return best;
   }
@@ -121,6 +123,17 @@ inline void route_arc(Arc& arc, const BoundingVolumeHierarchy& solid, const Inne
   arc.points = std::move(points);
 }
 
+// The component of the surface that each hub stands for; kNone where no vertex maps to it or its arcs.
+inline std::vector<Index> hub_components(const ArcGraph& graph, const SurfaceSnapshot& surface) {
+  std::vector<Index> component(graph.hub_position.size(), kNone);
+  for (Index v = 0; v < surface.vertex_count(); ++v) {
+    if (graph.hub_of_vertex[v] != kNone) component[graph.hub_of_vertex[v]] = surface.component[v];
+    if (graph.arc_of_vertex[v] == kNone) continue;
+    for (const Index h : graph.arcs[graph.arc_of_vertex[v]].hub) component[h] = surface.component[v];
+  }
+  return component;
+}
+
 }  // namespace detail
 
 inline RoutingResult route_inside(ArcGraph& graph, const SurfaceSnapshot& surface,
@@ -139,8 +152,9 @@ inline RoutingResult route_inside(ArcGraph& graph, const SurfaceSnapshot& surfac
   }
   if (hubs.empty() && arcs.empty()) return result;
   const detail::InnerGraph inner(surface, solid);
+  const std::vector<Index> component = detail::hub_components(graph, surface);
   for (const Index h : hubs) {
-    const Index v = inner.nearest(graph.hub_position[h]);
+    const Index v = inner.nearest(graph.hub_position[h], component[h]);
     if (v == kNone) continue;
     graph.move_hub(h, inner.point(v));
     ++result.hubs_moved;

@@ -34,19 +34,24 @@ inline CommonWay common_way(const std::vector<Vector3>& a, const std::vector<Vec
       const double radius = std::min(solid.distance(a[i]), solid.distance(b[k]));
       if (distance >= closeness * radius) break;
     }
+    const Vector3 middle = 0.5 * (a[i] + b[k]);
+    if (solid.segment_crosses(way.stem.back(), middle)) break;
     j = k;
     way.length += (a[i] - a[i - 1]).norm();
     way.first = i;
     way.second = j;
-    way.stem.push_back(0.5 * (a[i] + b[j]));
+    way.stem.push_back(middle);
   }
   return way;
 }
 
-// The points of an arc behind the common way, led in from the new joint.
-inline void cut_front(Arc& arc, int end, std::size_t count, Index joint, const Vector3& position) {
+// The points of an arc behind the common way, led in from the new joint: straight, or, if that meets the
+// surface, by way of the arc's last point on the common way, which lies in the same ball as the joint.
+inline void cut_front(Arc& arc, int end, std::size_t count, Index joint, const Vector3& position,
+                      const BoundingVolumeHierarchy& solid) {
   std::vector<Vector3> rest{position};
   const std::vector<Vector3> points = points_from(arc, end);
+  if (solid.segment_crosses(position, points[count + 1])) rest.push_back(points[count]);
   rest.insert(rest.end(), points.begin() + static_cast<std::ptrdiff_t>(count) + 1, points.end());
   if (end == 1) std::reverse(rest.begin(), rest.end());
   arc.points = std::move(rest);
@@ -72,12 +77,13 @@ struct Zip {
   CommonWay way;
 };
 
-inline void apply_zip(ArcGraph& graph, const SurfaceSnapshot& surface, const Zip& zip) {
+inline void apply_zip(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
+                      const Zip& zip) {
   const Index joint = graph.arcs[zip.a.arc].hub[zip.a.end];
   const Vector3 position = zip.way.stem.back();
   const Index parting = graph.add_hub(position);
-  cut_front(graph.arcs[zip.a.arc], zip.a.end, zip.way.first, parting, position);
-  cut_front(graph.arcs[zip.b.arc], zip.b.end, zip.way.second, parting, position);
+  cut_front(graph.arcs[zip.a.arc], zip.a.end, zip.way.first, parting, position, solid);
+  cut_front(graph.arcs[zip.b.arc], zip.b.end, zip.way.second, parting, position, solid);
   Arc stem;
   stem.hub = {joint, parting};
   stem.points = zip.way.stem;
@@ -124,7 +130,7 @@ inline Index zip_arcs(ArcGraph& graph, const SurfaceSnapshot& surface, const Bou
     if (leaf_gone != kNone) {
       remove_leaf_arc(graph, leaf_gone, leaf_joint);
     } else if (best.a.arc != kNone) {
-      detail::apply_zip(graph, surface, best);
+      detail::apply_zip(graph, surface, solid, best);
     } else {
       break;
     }

@@ -9,7 +9,7 @@ inline double angle_between(const Vector3& a, const Vector3& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-// The extent of the model by a double sweep: the vertex farthest from the centroid, then the one farthest
+// The extent of the points by a double sweep: the vertex farthest from the centroid, then the one farthest
 // from that. It turns with the model, unlike a bounding box, and is at least half the largest distance
 // between two vertices.
 inline double extent(const std::vector<Vector3>& points, const Vector3& centroid) {
@@ -40,7 +40,10 @@ inline void normalise(SurfaceSnapshot& s) {
   if (!(area > 0) || !std::isfinite(area))
     throw MeshError("the surface has no area, or coordinates too large to measure it");
   s.frame.origin = shift + weighted / area;
-  s.frame.scale = extent(s.position, s.frame.origin);
+  std::vector<Vector3> used;
+  for (std::size_t v = 0; v < s.position.size(); ++v)
+    if (s.vertex_halfedge[v] != kNone) used.push_back(s.position[v]);
+  s.frame.scale = extent(used, s.frame.origin);
   for (Vector3& p : s.position) p = s.frame.to_normalised(p);
 }
 

@@ -1,0 +1,433 @@
+// Routing, merging, zipping, pruning, aiming and growing: each keeps the topology and stays inside, and does
+// what it is for.
+#include <catch2/catch.hpp>
+
+#include "graph/arc_graphs.h"
+#include "mspskel/graph/refine_arcs.h"
+#include "mspskel/samples/skin_graph.h"
+#include "mspskel/slice/plane_search.h"
+#include "mspskel/slice/slice_error.h"
+
+using namespace mspskel;
+using namespace mspskel::test;
+
+namespace {
+
+struct Solid {
+  SurfaceSnapshot surface;
+  BoundingVolumeHierarchy hierarchy;
+  explicit Solid(const DefaultMesh& mesh) : surface(make_snapshot(mesh)), hierarchy(surface) {}
+
+  Vector3 at(const Vector3& x) const { return surface.frame.to_normalised(x); }
+  Vector3 model(const Vector3& x) const { return surface.frame.to_model(x); }
+  VertexSlices slices() const {
+    const SliceTracer tracer(surface);
+    VertexSlices result = search_minimum_slice_perimeters(tracer, {});
+    compute_slice_errors(tracer, {}, result);
+    return result;
+  }
+  VertexSlices no_slices() const {
+    VertexSlices none;
+    none.resize(surface.vertex_count());
+    return none;
+  }
+};
+
+DefaultMesh sample(const std::string& name, Index vertices, Index count = 0) {
+  SampleOptions options;
+  options.resolution = vertices;
+  if (count > 0) options.count = count;
+  return to_mesh(make_sample(name, options));
+}
+
+// An arc between two hubs with even points on a straight line.
+Index line(ArcGraph& graph, Index from, Index to, Index count = 40) {
+  return add_arc(graph, from, to, straight(graph.hub_position[from], graph.hub_position[to], count));
+}
+
+Index joint_count(const ArcGraph& graph) {
+  Index joints = 0;
+  for (const auto& arcs : graph.incidence()) joints += arcs.size() >= 3;
+  return joints;
+}
+
+Index spur_count(const ArcGraph& graph, const BoundingVolumeHierarchy& solid) {
+  const auto at = graph.incidence();
+  Index spurs = 0;
+  for (const Arc& arc : graph.arcs)
+    for (const int end : {0, 1}) {
+      if (!arc.alive || at[arc.hub[end]].size() != 1 || at[arc.hub[1 - end]].size() < 3) continue;
+      const Vector3& joint = graph.hub_position[arc.hub[1 - end]];
+      spurs += (graph.hub_position[arc.hub[end]] - joint).norm() < solid.distance(joint);
+    }
+  return spurs;
+}
+
+}  // namespace
+
+TEST_CASE("Random graphs are routed inside, and every stage keeps them there, with their type and map") {
+  struct Case {
+    std::string name;
+    Index vertices, count, runs;
+  };
+  for (const Case& c : {Case{"torus", 300, 0, 8}, Case{"y-tube", 400, 0, 8}, Case{"plate", 600, 3, 5},
+                        Case{"cup", 2500, 0, 2}, Case{"quadruped", 2500, 0, 2}}) {
+    const Solid solid(sample(c.name, c.vertices, c.count));
+    const VertexSlices slices = solid.no_slices();
+    CenteringOptions coarse;
+    coarse.step = 0.03;
+    coarse.rounds = 1;
+    for (Index run = 0; run < c.runs; ++run) {
+      Random random(100 + run);
+      ArcGraph graph = random_arc_graph(random, 0.5);
+      map_to_nearest(graph, solid.surface.position);
+      const GraphType before = type_of(graph);
+      std::string stage;
+      const auto check = [&](const char* name) {
+        stage = name;
+        INFO(c.name << ", run " << run << ", after " << stage);
+        CHECK(type_of(graph) == before);
+        CHECK(arcs_meet_hubs(graph));
+        CHECK(map_is_partition(graph));
+        CHECK(crossings(graph, solid.hierarchy) == 0);
+      };
+      const RoutingResult routing = route_inside(graph, solid.surface, solid.hierarchy);
+      REQUIRE(routing.unroutable == 0);
+      check("routing");
+      center_arcs(graph, solid.hierarchy, coarse);
+      check("centring");
+      merge_joints(graph, solid.hierarchy, run % 2 ? 1.0 : 4.0);
+      check("merging");
+      zip_arcs(graph, solid.surface, solid.hierarchy, {run % 2 ? 0.75 : 1.9});
+      check("zipping");
+      aim_ends(graph, solid.surface, solid.hierarchy, coarse.step);
+      check("aiming");
+      extend_ends(graph, solid.hierarchy, {});
+      check("extension");
+      prune_branches(graph, solid.surface, solid.hierarchy, slices, {});
+      check("pruning");
+      remove_spurs(graph, solid.hierarchy);
+      check("removing spurs");
+      CHECK(spur_count(graph, solid.hierarchy) == 0);
+      center_arcs(graph, solid.hierarchy, coarse);
+      check("centring again");
+    }
+  }
+}
+
+TEST_CASE("An arc across the hole of a torus comes back through the ring") {
+  const Solid solid(torus(1, 0.3, 40, 16));
+  ArcGraph graph;
+  graph.add_hub(solid.at({1, 0, 0}));
+  graph.add_hub(solid.at({-1, 0.05, 0}));
+  line(graph, 0, 1);
+  map_to_nearest(graph, solid.surface.position);
+  const RoutingResult result = route_inside(graph, solid.surface, solid.hierarchy);
+  CHECK(result.hubs_moved == 0);
+  CHECK(result.routed > 0);
+  CHECK(crossings(graph, solid.hierarchy) == 0);
+  for (const Vector3& p : graph.arcs[0].points) {
+    const Vector3 x = solid.model(p);
+    CHECK(std::hypot(x.x(), x.y()) == Approx(1).margin(0.2));
+  }
+  // What is inside is left alone.
+  const auto points = graph.arcs[0].points;
+  const RoutingResult again = route_inside(graph, solid.surface, solid.hierarchy);
+  CHECK((again.hubs_moved == 0 && again.routed == 0 && again.unroutable == 0));
+  CHECK(graph.arcs[0].points == points);
+}
+
+TEST_CASE("A hub in the cavity of a cup moves into the wall, and its arcs follow the wall") {
+  const Solid solid(sample("cup", 2500));
+  ArcGraph graph;
+  graph.add_hub(solid.at({0.1, 0, 0}));
+  graph.add_hub(solid.at({-0.95, 0, 0}));
+  graph.add_hub(solid.at({0, 0.97, 0.3}));
+  line(graph, 0, 1);
+  line(graph, 0, 2);
+  line(graph, 1, 2);
+  map_to_nearest(graph, solid.surface.position);
+  REQUIRE(crossings(graph, solid.hierarchy) > 0);
+  const RoutingResult result = route_inside(graph, solid.surface, solid.hierarchy);
+  CHECK(result.hubs_moved >= 1);
+  CHECK(result.unroutable == 0);
+  CHECK(crossings(graph, solid.hierarchy) == 0);
+  CHECK(type_of(graph) == GraphType{1, 1});
+}
+
+TEST_CASE("A hub outside moves into its own component, not into a nearer one") {
+  PolygonSoup soup = to_soup(tube(1, 6, 12, 8));
+  append(soup, to_soup(translated(tube(1, 6, 12, 8), {5, 0, 0})));
+  const Solid solid(to_mesh(soup));
+  ArcGraph graph;
+  graph.add_hub(solid.at({3.6, 0, 3}));  // of the first tube, nearer to the second
+  graph.add_hub(solid.at({0, 0, 5}));
+  graph.add_hub(solid.at({5, 0, 3}));
+  line(graph, 0, 1);
+  for (Index v = 0; v < solid.surface.vertex_count(); ++v) {
+    graph.arc_of_vertex.push_back(solid.surface.component[v] == 0 ? 0 : kNone);
+    graph.hub_of_vertex.push_back(solid.surface.component[v] == 0 ? kNone : 2);
+  }
+  const RoutingResult result = route_inside(graph, solid.surface, solid.hierarchy);
+  CHECK(result.hubs_moved == 1);
+  CHECK(result.unroutable == 0);
+  CHECK(crossings(graph, solid.hierarchy) == 0);
+  CHECK(solid.model(graph.hub_position[0]).x() < 1);
+}
+
+TEST_CASE("Joints within one another's ball become one, those further apart and loops stay") {
+  const Solid solid(tube(1, 20, 24, 40));
+  ArcGraph graph;
+  for (const double z : {1.0, 6.0, 6.5, 14.0, 19.0}) graph.add_hub(solid.at({0, 0, z}));
+  for (const double z : {6.1, 6.4, 14.0}) graph.add_hub(solid.at({0.8, 0, z}));
+  for (Index h = 0; h < 4; ++h) line(graph, h, h + 1);
+  line(graph, 1, 5);
+  line(graph, 2, 6);
+  line(graph, 3, 7);
+  map_to_nearest(graph, solid.surface.position);
+  ArcGraph with_cycle = graph;
+  CHECK(merge_joints(graph, solid.hierarchy) == 1);
+  CHECK(joint_count(graph) == 2);
+  CHECK(type_of(graph) == GraphType{1, 0});
+  CHECK(map_is_partition(graph));
+  CHECK(crossings(graph, solid.hierarchy) == 0);
+  // A parallel arc would become a loop.
+  line(with_cycle, 1, 2);
+  CHECK(merge_joints(with_cycle, solid.hierarchy) == 0);
+  CHECK(type_of(with_cycle) == GraphType{1, 1});
+}
+
+TEST_CASE("Joints with the surface between them do not merge, however far balls may reach") {
+  // Two strands of a hairpin: the joints' balls overlap by far, but there is a gap between them.
+  BallGraph hairpin;
+  hairpin.blend = 0;
+  hairpin.nodes = {{{0, 0, 0}, 0.3}, {{0, 0, 4}, 0.3}, {{0.8, 0, 4}, 0.3}, {{0.8, 0, 0}, 0.3}};
+  hairpin.edges = {{0, 1}, {1, 2}, {2, 3}};
+  const Solid solid(to_mesh(skin_graph(hairpin, 1200)));
+  ArcGraph graph;
+  for (const Vector3& p : {Vector3(0, 0, 3.2), Vector3(0, 0, 4), Vector3(0.8, 0, 4), Vector3(0.8, 0, 3.2)})
+    graph.add_hub(solid.at(p));
+  for (const Vector3& p : {Vector3(0.1, 0.1, 2), Vector3(-0.1, 0, 2), Vector3(0.7, 0, 2), Vector3(0.9, 0, 2)})
+    graph.add_hub(solid.at(p));
+  std::vector<Vector3> bend = straight(graph.hub_position[0], graph.hub_position[1], 20);
+  for (const Vector3& p : straight(graph.hub_position[1], graph.hub_position[2], 20)) bend.push_back(p);
+  bend.push_back(graph.hub_position[2]);
+  for (const Vector3& p : straight(graph.hub_position[2], graph.hub_position[3], 20)) bend.push_back(p);
+  add_arc(graph, 0, 3, bend);
+  line(graph, 0, 4);
+  line(graph, 0, 5);
+  line(graph, 3, 6);
+  line(graph, 3, 7);
+  graph.hub_alive[1] = graph.hub_alive[2] = false;
+  map_to_nearest(graph, solid.surface.position);
+  REQUIRE(crossings(graph, solid.hierarchy) == 0);
+  for (const double overlap : {1.0, 3.0, 10.0}) {
+    ArcGraph merged = graph;
+    merge_joints(merged, solid.hierarchy, overlap);
+    CHECK(crossings(merged, solid.hierarchy) == 0);
+    CHECK(type_of(merged) == GraphType{1, 0});
+  }
+}
+
+TEST_CASE("Two arcs side by side in a tube become one") {
+  const Solid solid(tube(1, 12, 24, 24));
+  ArcGraph graph;
+  graph.add_hub(solid.at({0, 0, 5}));
+  graph.add_hub(solid.at({0, 0, 1}));
+  graph.add_hub(solid.at({0.15, 0, 11}));
+  graph.add_hub(solid.at({-0.15, 0, 10.8}));
+  for (Index tip = 1; tip < 4; ++tip) line(graph, 0, tip, 60);
+  map_to_nearest(graph, solid.surface.position);
+  CHECK(zip_arcs(graph, solid.surface, solid.hierarchy, {}) >= 1);
+  CHECK(living_arcs(graph) == 1);
+  CHECK(leaf_count(graph) == 2);
+  CHECK(map_is_partition(graph));
+  CHECK(crossings(graph, solid.hierarchy) == 0);
+}
+
+TEST_CASE("Arcs that part later are zipped up to where they part; arcs round a hole stay two") {
+  BallGraph fork;
+  fork.blend = 0;
+  fork.nodes = {{{0, 0, 0}, 0.5}, {{0, 0, 4}, 0.5}, {{2, 0, 6}, 0.4}, {{-2, 0, 6}, 0.4}};
+  fork.edges = {{0, 1}, {1, 2}, {1, 3}};
+  const Solid solid(to_mesh(skin_graph(fork, 1500)));
+  ArcGraph graph;
+  for (const Vector3& p : {Vector3(0, 0, 1), Vector3(0, 0, 0), Vector3(2, 0, 6), Vector3(-2, 0, 6)})
+    graph.add_hub(solid.at(p));
+  line(graph, 0, 1);
+  for (const double side : {1.0, -1.0}) {
+    const Vector3 bend = solid.at({0.1 * side, 0, 4});
+    const Index tip = side > 0 ? 2 : 3;
+    std::vector<Vector3> points = straight(graph.hub_position[0], bend, 40);
+    points.push_back(bend);
+    for (const Vector3& p : straight(bend, graph.hub_position[tip], 40)) points.push_back(p);
+    add_arc(graph, 0, tip, points);
+  }
+  map_to_nearest(graph, solid.surface.position);
+  REQUIRE(crossings(graph, solid.hierarchy) == 0);
+  CHECK(zip_arcs(graph, solid.surface, solid.hierarchy, {}) >= 1);
+  CHECK(joint_count(graph) == 1);
+  CHECK(leaf_count(graph) == 3);
+  CHECK(map_is_partition(graph));
+  CHECK(crossings(graph, solid.hierarchy) == 0);
+  const auto at = graph.incidence();
+  for (Index h = 0; h < graph.hub_count(); ++h)
+    if (at[h].size() == 3) CHECK(solid.model(graph.hub_position[h]).z() > 3.7);
+
+  const Solid ring(torus(1, 0.3, 40, 16));
+  ArcGraph round;
+  round.add_hub(ring.at({1, 0, 0}));
+  round.add_hub(ring.at({-1, 0, 0}));
+  round.add_hub(ring.at({1.2, 0, 0}));
+  for (const double side : {1.0, -1.0}) {
+    std::vector<Vector3> half;
+    for (int i = 1; i < 30; ++i)
+      half.push_back(ring.at({std::cos(kPi * i / 30), side * std::sin(kPi * i / 30), 0}));
+    add_arc(round, 0, 1, half);
+  }
+  line(round, 0, 2, 5);
+  map_to_nearest(round, ring.surface.position);
+  zip_arcs(round, ring.surface, ring.hierarchy, {});
+  CHECK(type_of(round) == GraphType{1, 1});
+  CHECK(crossings(round, ring.hierarchy) == 0);
+}
+
+namespace {
+
+BallGraph tripod() {
+  BallGraph graph;
+  graph.blend = 0.1;
+  graph.nodes = {{{0, 0, 0}, 0.5}, {{0, 0, 3}, 0.4}, {{2.6, 0, -1.5}, 0.4}, {{-2.6, 0.2, -1.5}, 0.4}};
+  graph.edges = {{0, 1}, {0, 2}, {0, 3}};
+  return graph;
+}
+
+// Arcs from the middle of the tripod to the given share of each limb, and one more to the given place.
+ArcGraph tripod_arcs(const Solid& solid, double share, const Vector3* hair = nullptr) {
+  const BallGraph limbs = tripod();
+  ArcGraph graph;
+  graph.add_hub(solid.at({0, 0, 0}));
+  for (Index i = 1; i < 4; ++i) {
+    graph.add_hub(solid.at(share * limbs.nodes[i].position));
+    line(graph, 0, i);
+  }
+  if (hair) {
+    graph.add_hub(solid.at(*hair));
+    line(graph, 0, 4);
+  }
+  map_to_nearest(graph, solid.surface.position);
+  return graph;
+}
+
+}  // namespace
+
+TEST_CASE("Pruning takes a hair and leaves the limbs") {
+  const Solid solid(to_mesh(skin_graph(tripod(), 1200)));
+  const Vector3 hair(0, 0.3, 0);
+  ArcGraph graph = tripod_arcs(solid, 1.0, &hair);
+  CHECK(prune_branches(graph, solid.surface, solid.hierarchy, solid.slices(), {}) == 1);
+  CHECK(leaf_count(graph) == 3);
+  CHECK(living_arcs(graph) == 3);
+  CHECK_FALSE(graph.hub_alive[4]);
+  CHECK(map_is_partition(graph));
+  // Whatever the thresholds, the last arc of a piece stays.
+  PruningOptions all;
+  all.significance = 100;
+  all.smallest = 1;
+  prune_branches(graph, solid.surface, solid.hierarchy, solid.slices(), all);
+  CHECK(type_of(graph) == GraphType{1, 0});
+  CHECK(living_arcs(graph) == 1);
+}
+
+TEST_CASE("A star in a ball is pruned to one arc") {
+  const Solid solid(sphere(200));
+  ArcGraph graph;
+  graph.add_hub(Vector3::Zero());
+  Random random(3);
+  for (Index i = 1; i < 7; ++i) {
+    graph.add_hub(0.3 * random.in_ball().normalized());
+    line(graph, 0, i);
+  }
+  map_to_nearest(graph, solid.surface.position);
+  prune_branches(graph, solid.surface, solid.hierarchy, solid.slices(), {});
+  CHECK(living_arcs(graph) == 1);
+  CHECK(map_is_partition(graph));
+}
+
+TEST_CASE("Nothing is pruned without thresholds") {
+  const Solid solid(sphere(100));
+  Random random(6);
+  for (int run = 0; run < 20; ++run) {
+    ArcGraph graph = random_arc_graph(random, 0.4);
+    map_to_nearest(graph, solid.surface.position);
+    PruningOptions none;
+    none.significance = none.smallest = 0;
+    CHECK(prune_branches(graph, solid.surface, solid.hierarchy, solid.no_slices(), none) == 0);
+  }
+}
+
+TEST_CASE("No leaf ends in the ball of its joint once spurs are removed") {
+  const Solid solid(sphere(100));
+  Random random(5);
+  Index removed = 0;
+  for (int run = 0; run < 100; ++run) {
+    ArcGraph graph = random_arc_graph(random, 0.4);
+    map_to_nearest(graph, solid.surface.position);
+    const GraphType before = type_of(graph);
+    removed += remove_spurs(graph, solid.hierarchy);
+    CHECK(spur_count(graph, solid.hierarchy) == 0);
+    CHECK(type_of(graph) == before);
+    CHECK(map_is_partition(graph));
+  }
+  CHECK(removed > 20);
+}
+
+TEST_CASE("Short leaf arcs are aimed at the end of their limb, and ends that reach it stay") {
+  const Solid solid(to_mesh(skin_graph(tripod(), 1200)));
+  ArcGraph graph = tripod_arcs(solid, 0.5);
+  CHECK(aim_ends(graph, solid.surface, solid.hierarchy, 0.01) == 3);
+  CHECK(crossings(graph, solid.hierarchy) == 0);
+  for (Index i = 1; i < 4; ++i) {
+    const Vector3& tip = tripod().nodes[i].position;
+    CHECK((solid.model(graph.hub_position[i]) - tip).norm() < 0.3 * tip.norm());
+  }
+  CHECK(aim_ends(graph, solid.surface, solid.hierarchy, 0.05) == 0);
+}
+
+TEST_CASE("Ends grow along a capsule up to the wanted distance before its tips") {
+  SampleOptions options;
+  options.resolution = 600;
+  const Solid solid(to_mesh(make_sample("capsule", options)));  // radius 1, tips at z = ±4
+  ArcGraph graph;
+  graph.add_hub(solid.at({0, 0, -1.5}));
+  graph.add_hub(solid.at({0, 0, 1.5}));
+  line(graph, 0, 1);
+  map_to_nearest(graph, solid.surface.position);
+  for (const double clearance : {0.2, 0.5, 1.0}) {
+    ArcGraph grown = graph;
+    ExtensionOptions extension;
+    extension.tip_clearance = clearance;
+    extend_ends(grown, solid.hierarchy, extension);
+    CHECK(crossings(grown, solid.hierarchy) == 0);
+    for (Index h = 0; h < 2; ++h) {
+      const Vector3 end = solid.model(grown.hub_position[h]);
+      CHECK(std::abs(end.z()) == Approx(4 - clearance).margin(0.15));
+      CHECK(std::hypot(end.x(), end.y()) < 0.05);
+    }
+  }
+  ArcGraph kept = graph;
+  ExtensionOptions none;
+  none.max_length = 0;
+  extend_ends(kept, solid.hierarchy, none);
+  CHECK(kept.hub_position == graph.hub_position);
+}
+
+TEST_CASE("Options of the arc stages are checked") {
+  const auto throws = [](auto options) { CHECK_THROWS_AS(validate(options), UsageError); };
+  throws(ZipOptions{2.5});
+  throws(PruningOptions{-1, 0.01});
+  throws(PruningOptions{1, 2});
+  throws(ExtensionOptions{0});
+  throws(ExtensionOptions{0.01, 0});
+  throws(ExtensionOptions{0.01, 0.5, -1});
+}
