@@ -147,7 +147,7 @@ TEST_CASE("Thesis mode on samples: exact topology and a partition") {
 
 TEST_CASE("The same bytes with one thread, with two, and again") {
   for (const Mode mode : {Mode::kDefault, Mode::kThesis}) {
-    const DefaultMesh mesh = mesh_of({"y-tube", 300, 0});
+    const DefaultMesh mesh = mesh_of({"y-tube", 250, 0});
     const CurveSkeleton one = extract_skeleton(mesh, options_for(mode, 1)).skeleton;
     CHECK(same_bytes(one, extract_skeleton(mesh, options_for(mode, 1)).skeleton));
     CHECK(same_bytes(one, extract_skeleton(mesh, options_for(mode, 2)).skeleton));
@@ -158,7 +158,7 @@ TEST_CASE("The same bytes with one thread, with two, and again") {
 TEST_CASE("Turned, moved, scaled and renumbered models have the same skeleton") {
   const Vector3 axis = Vector3(1, -2, 0.5).normalized(), shift(30, -20, 70);
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.1, axis).toRotationMatrix();
-  for (const Sample& sample : {samples()[4], samples()[3], samples()[7]}) {
+  for (const Sample& sample : {samples()[4], samples()[3], samples()[5]}) {
     INFO(sample.name);
     const DefaultMesh mesh = mesh_of(sample);
     const ExtractResult& result = default_result(sample);
@@ -171,7 +171,7 @@ TEST_CASE("Turned, moved, scaled and renumbered models have the same skeleton") 
 }
 
 TEST_CASE("A renumbered mesh has the same skeleton in thesis mode") {
-  const DefaultMesh mesh = mesh_of({"y-tube", 300, 0});
+  const DefaultMesh mesh = mesh_of({"y-tube", 250, 0});
   const ExtractResult result = extract_skeleton(mesh, thesis_options());
   check_same_curve(result.skeleton, extract_skeleton(renumbered(mesh, 5), thesis_options()).skeleton,
                    result.surface.frame.scale);
