@@ -104,7 +104,8 @@ Table skeleton_mesh_table(const std::vector<Study>& studies) {
   Table table{{"model", "centres of MSP slices", "of refined slices", "repulsive force"}, {}};
   for (const Study& study : studies) {
     std::vector<std::string> row{study.name};
-    for (const double share : study.area_share) row.push_back(number(100 * share, 1) + " %");
+    for (std::size_t i = 0; i < study.area_share.size(); ++i)
+      row.push_back(percent(study.area_share[i]) + ", " + number(100 * study.volume_share[i], 1) + " %");
     table.rows.push_back(row);
   }
   return table;
@@ -187,7 +188,10 @@ Document make_page(const std::vector<Study>& studies, int threads) {
   add_figures(page, studies, {"refinement", "charts"});
 
   page.heading("Skeleton meshes (Fig. 5.4 to 5.11)");
-  page.paragraph("Area of the moved mesh over the surface's: 0 would be a curve.");
+  page.paragraph(
+      "Area and enclosed volume of the moved mesh, over the surface's. A curve has neither, a medial sheet "
+      "has "
+      "area; triangles stretched from branch to branch count too.");
   page.table(skeleton_mesh_table(studies));
   add_figures(page, studies, {"skeleton-meshes"});
 

@@ -81,6 +81,14 @@ double triangles_area(const SurfaceSnapshot& surface, const std::vector<Vector3>
   return twice / 2;
 }
 
+double triangles_volume(const SurfaceSnapshot& surface, const std::vector<Vector3>& position) {
+  double six = 0;
+  for (Index h = 0; h < surface.halfedge_count(); h += 3)
+    six += position[surface.origin[h]].dot(
+        position[surface.origin[h + 1]].cross(position[surface.origin[h + 2]]));
+  return six / 6;
+}
+
 void run_skeleton_meshes(const SliceTracer& tracer, const Execution& execution, Study& study) {
   SkeletonMeshOptions centre;
   centre.point.method = SkeletalPointMethod::kCentre;
@@ -88,9 +96,11 @@ void run_skeleton_meshes(const SliceTracer& tracer, const Execution& execution, 
                            make_skeleton_mesh(tracer, study.thesis.slices, centre, execution),
                            study.thesis.skeleton_mesh};
   const SurfaceSnapshot& surface = study.thesis.surface;
-  for (std::size_t i = 0; i < study.skeleton_meshes.size(); ++i)
-    study.area_share[i] = triangles_area(surface, study.skeleton_meshes[i].position) /
-                          triangles_area(surface, surface.position);
+  for (std::size_t i = 0; i < study.skeleton_meshes.size(); ++i) {
+    const std::vector<Vector3>& moved = study.skeleton_meshes[i].position;
+    study.area_share[i] = triangles_area(surface, moved) / triangles_area(surface, surface.position);
+    study.volume_share[i] = triangles_volume(surface, moved) / triangles_volume(surface, surface.position);
+  }
 }
 
 // The saturation threshold enters with the collapse; all before it is shared.

@@ -45,7 +45,8 @@ struct Study {
   BeforeAfter jump;   // mean |MSP(u) − MSP(v)| / mean of both, over the edges
   // Centres of MSP slices, of refined slices, and minima of the repulsive force (Fig. 5.4 to 5.11).
   std::array<SkeletonMesh, 3> skeleton_meshes;
-  std::array<double, 3> area_share{};  // of each: its area over the surface's; 0 for a curve
+  // Area and enclosed volume of each over the surface's; both 0 for a curve, the volume for a sheet.
+  std::array<double, 3> area_share{}, volume_share{};
   std::vector<SkeletonRun> sweep;      // thesis mode by kThresholds
   std::vector<SkeletonRun> skeletons;  // thesis mode, default mode, and the baseline where it can run
   std::vector<Index> walk;             // vertices along the default skeleton's arcs, for charts

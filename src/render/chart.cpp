@@ -125,7 +125,8 @@ void draw_axes(Image& image, const Plot& plot, const ChartOptions& options) {
     const int x = static_cast<int>(std::lround(plot.column(v)));
     fill(image, x, plot.top, x, plot.bottom, kGrid);
     const std::string text = number(v, xstep);
-    draw_text(image, x - text_length(text, kText) / 2, plot.bottom + 7, text, style);
+    const int length = text_length(text, kText);
+    draw_text(image, std::min(x - length / 2, image.width - length - 2), plot.bottom + 7, text, style);
   }
   fill(image, plot.left, plot.bottom, plot.right, plot.bottom, kInk);
   fill(image, plot.left, plot.top, plot.left, plot.bottom, kInk);
