@@ -48,6 +48,9 @@ std::vector<Vector3> points_from(const Arc& arc, int end);
 // least `min_edges`.
 std::vector<Vector3> resampled(const Arc& arc, double step, Index min_edges = 1);
 
+// Cuts edges longer than `longest` into equal pieces; the curve stays the same.
+void subdivide(ArcGraph& graph, double longest);
+
 // Removes a leaf arc: the hub `keep` that it leaves takes its vertices, and those of its tip.
 void remove_leaf_arc(ArcGraph& graph, Index arc, Index keep);
 

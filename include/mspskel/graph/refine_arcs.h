@@ -4,6 +4,7 @@
 
 #include "mspskel/graph/aim_ends.h"
 #include "mspskel/graph/center_arcs.h"
+#include "mspskel/graph/complete_limbs.h"
 #include "mspskel/graph/extend_ends.h"
 #include "mspskel/graph/merge_joints.h"
 #include "mspskel/graph/prune_branches.h"
@@ -35,7 +36,8 @@ inline void validate(const RefinementOptions& o) {
 struct RefinementCounts {
   Index pruned = 0;  // leaf arcs removed
   Index joints_merged = 0;
-  Index zips = 0;  // pairs of arcs joined from their joint to where they part
+  Index completed = 0;  // arcs added for limbs that had none
+  Index zips = 0;       // pairs of arcs joined from their joint to where they part
   RoutingResult routing;
 };
 
@@ -65,6 +67,9 @@ inline RefinementCounts refine_arcs(ArcGraph& graph, const SurfaceSnapshot& surf
     prune(1.0);
   }
   aim_ends(graph, surface, solid, options.centering.step);
+  counts.completed = complete_limbs(graph, surface, solid, slices, options.pruning, options.centering.step);
+  center_arcs(graph, solid, few, execution);
+  counts.zips += zip_arcs(graph, surface, solid, options.zip);
   extend_ends(graph, solid, options.extension);
   center_arcs(graph, solid, few, execution);
   prune(1.0);
@@ -72,6 +77,7 @@ inline RefinementCounts refine_arcs(ArcGraph& graph, const SurfaceSnapshot& surf
   const Index spurs = remove_spurs(graph, solid);
   counts.pruned += spurs;
   if (spurs > 0) center_arcs(graph, solid, few, execution);
+  subdivide(graph, 1.25 * options.centering.step);  // rounds of centring stretch some edges
   return counts;
 }
 

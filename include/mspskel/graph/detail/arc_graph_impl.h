@@ -55,6 +55,21 @@ inline std::vector<Vector3> resampled(const Arc& arc, double step, Index min_edg
   return points;
 }
 
+inline void subdivide(ArcGraph& graph, double longest) {
+  std::vector<Vector3> points;
+  for (Arc& arc : graph.arcs) {
+    if (!arc.alive) continue;
+    points.assign(1, arc.points.front());
+    for (std::size_t i = 1; i < arc.points.size(); ++i) {
+      const Vector3 from = arc.points[i - 1], edge = arc.points[i] - from;
+      const int pieces = std::max(1, static_cast<int>(std::ceil(edge.norm() / longest)));
+      for (int k = 1; k < pieces; ++k) points.push_back(from + edge * (static_cast<double>(k) / pieces));
+      points.push_back(arc.points[i]);
+    }
+    arc.points = points;
+  }
+}
+
 inline void remove_leaf_arc(ArcGraph& graph, Index arc, Index keep) {
   Arc& gone = graph.arcs[arc];
   const Index tip = gone.hub[0] == keep ? gone.hub[1] : gone.hub[0];

@@ -1,0 +1,22 @@
+// Limbs that the skeleton misses get an arc: the surface tells which parts no maximal ball comes near.
+#pragma once
+
+#include "mspskel/graph/aim_ends.h"
+#include "mspskel/graph/prune_branches.h"
+#include "mspskel/graph/route_inside.h"
+#include "mspskel/graph/zip_arcs.h"
+
+namespace mspskel {
+
+// Takes the vertex farthest outside all balls of the skeleton, leads an arc to it from the nearest point of
+// the skeleton (straight where that is free, else along the middle of the solid), and keeps the arc if it is
+// half as significant again as pruning asks of any other; then the next vertex, until none protrudes enough.
+// A new arc is a leaf, so the homotopy type stays. It takes the vertices that it covers better. Returns the
+// number of arcs added. Cost: O(vertices · points) once, O(vertices · points of the arc) and a few queries an
+// arc tried; at most 200 are tried.
+Index complete_limbs(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
+                     const VertexSlices& slices, const PruningOptions& options, double step);
+
+}  // namespace mspskel
+
+#include "mspskel/graph/detail/complete_limbs_impl.h"

@@ -1,0 +1,194 @@
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+
+namespace mspskel {
+namespace detail {
+
+// The collapse saw no limb here, so the evidence has to be better than for an arc that it made.
+inline constexpr double kCaution = 1.25;
+
+// A point of the graph: a hub, or an inner point of an arc.
+struct GraphPoint {
+  Index hub = kNone, arc = kNone;
+  std::size_t index = 0;
+  Vector3 position = Vector3::Zero();
+};
+
+class LimbCompletion {
+ public:
+  LimbCompletion(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
+                 const VertexSlices& slices, const PruningOptions& options, double step)
+      : graph_(graph), surface_(surface), solid_(solid), slices_(slices), options_(options), step_(step) {
+    const ArcBalls balls(graph, solid);
+    outside_.assign(surface.position.size(), std::numeric_limits<double>::infinity());
+    for (Index h = 0; h < graph.hub_count(); ++h)
+      if (graph.hub_alive[h]) cover({balls.hub[h]});
+    for (const auto& arc : balls.arc) cover(arc);
+    for (Index v = 0; v < surface.vertex_count(); ++v)
+      if (graph.arc_of_vertex[v] == kNone && graph.hub_of_vertex[v] == kNone) outside_[v] = 0;
+  }
+
+  Index run() {
+    constexpr int kTries = 200;
+    Index added = 0;
+    for (int i = 0; i < kTries; ++i) {
+      const auto farthest = std::max_element(outside_.begin(), outside_.end());
+      if (!(*farthest > std::max(options_.smallest, step_))) break;
+      const Index v = static_cast<Index>(farthest - outside_.begin());
+      if (try_limb(v)) {
+        ++added;
+      } else {
+        dismiss(v);
+      }
+    }
+    return added;
+  }
+
+ private:
+  void cover(const std::vector<Ball>& balls) {
+    if (balls.empty()) return;
+    for (std::size_t v = 0; v < outside_.size(); ++v)
+      for (const Ball& ball : balls)
+        outside_[v] = std::min(outside_[v], (surface_.position[v] - ball.centre).norm() - ball.radius);
+  }
+
+  // What lies round a vertex whose arc would be insignificant is not tried again.
+  void dismiss(Index v) {
+    const double reach = outside_[v];
+    for (std::size_t w = 0; w < outside_.size(); ++w)
+      if ((surface_.position[w] - surface_.position[v]).norm() <= reach) outside_[w] = 0;
+  }
+
+  // Points of the graph by their distance to x.
+  std::vector<std::pair<double, GraphPoint>> points_by_distance(const Vector3& x) const {
+    std::vector<std::pair<double, GraphPoint>> all;
+    for (Index h = 0; h < graph_.hub_count(); ++h)
+      if (graph_.hub_alive[h])
+        all.push_back({(graph_.hub_position[h] - x).norm(), {h, kNone, 0, graph_.hub_position[h]}});
+    for (Index a = 0; a < graph_.arc_count(); ++a)
+      if (graph_.arcs[a].alive)
+        for (std::size_t i = 1; i + 1 < graph_.arcs[a].points.size(); ++i)
+          all.push_back({(graph_.arcs[a].points[i] - x).norm(), {kNone, a, i, graph_.arcs[a].points[i]}});
+    std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    return all;
+  }
+
+  // The way from the skeleton to v: straight from the nearest point that sees v, or through the solid.
+  bool find_way(Index v, GraphPoint& start, std::vector<Vector3>& way) {
+    constexpr std::size_t kSeen = 64;
+    const Vector3& target = surface_.position[v];
+    const auto points = points_by_distance(target);
+    for (std::size_t i = 0; i < std::min(kSeen, points.size()); ++i) {
+      const Vector3& x = points[i].second.position;
+      if (solid_.segment_crosses(x, x + 0.98 * (target - x))) continue;
+      start = points[i].second;
+      way.assign(1, x);
+      lead_towards(way, target, solid_, step_);
+      return way.size() > 2;
+    }
+    if (points.empty()) return false;
+    if (!inner_) inner_ = std::make_unique<InnerGraph>(surface_, solid_);
+    if (!inner_->usable(v)) return false;
+    start = points.front().second;
+    std::vector<Vector3> between;
+    if (!inner_->path(start.position, inner_->point(v), between)) return false;
+    way.assign(1, start.position);
+    way.insert(way.end(), between.begin(), between.end());
+    lead_towards(way, target, solid_, step_);
+    return way.size() > 2;
+  }
+
+  bool try_limb(Index v) {
+    GraphPoint start;
+    std::vector<Vector3> way;
+    if (!find_way(v, start, way)) return false;
+    // A few rounds of centring with the start held show the limb's true width.
+    ArcGraph alone;
+    alone.add_hub(way.front());
+    alone.add_hub(way.back());
+    alone.arcs.push_back({{0, 1}, way, true});
+    CenteringOptions few;
+    few.step = step_;
+    few.rounds = 3;
+    Execution one_thread;
+    one_thread.threads = 1;
+    center_arcs(alone, solid_, few, one_thread);
+    way = alone.arcs[0].points;
+    const Ball ball{way.front(), solid_.distance(way.front())};
+    if (significance(way, ball, outside_[v]) < kCaution * options_.significance) return false;
+    if (solid_.segment_crosses(start.position, way.front())) return false;
+    way.insert(way.begin(), start.position);
+    add(start, way);
+    return true;
+  }
+
+  double significance(const std::vector<Vector3>& way, const Ball& ball, double depth) const {
+    Arc arc;
+    arc.points = way;
+    LeafSignificance s;
+    s.depth = depth;
+    const auto [width, perimeter] = arc_sections(arc, ball, solid_);
+    s.half_width = width;
+    std::vector<double> parents;
+    for (Index v = 0; v < surface_.vertex_count(); ++v)
+      if (slices_.valid[v] && outside_[v] < 0.1 * depth &&
+          (surface_.position[v] - ball.centre).norm() < 2 * std::max(ball.radius, width))
+        parents.push_back(slices_.perimeter[v]);
+    if (perimeter > 0) s.msp_ratio = std::max(1.0, value_at_rank(std::move(parents), 0.5) / perimeter);
+    return s.value();
+  }
+
+  Index hub_at(const GraphPoint& p) {
+    if (p.hub != kNone) return p.hub;
+    const Index hub = graph_.add_hub(p.position);
+    Arc rest = graph_.arcs[p.arc];
+    Arc& first = graph_.arcs[p.arc];
+    rest.points.erase(rest.points.begin(), rest.points.begin() + static_cast<std::ptrdiff_t>(p.index));
+    rest.hub[0] = hub;
+    first.points.resize(p.index + 1);
+    first.hub[1] = hub;
+    graph_.arcs.push_back(std::move(rest));
+    give_near_vertices(graph_, surface_, p.arc, graph_.arc_count() - 1);
+    return hub;
+  }
+
+  void add(const GraphPoint& start, const std::vector<Vector3>& way) {
+    Arc limb;
+    limb.hub = {hub_at(start), graph_.add_hub(way.back())};
+    limb.points = way;
+    const Index added = graph_.arc_count();
+    graph_.arcs.push_back(std::move(limb));
+    std::vector<Ball> balls;
+    for (std::size_t i = 1; i < way.size(); ++i) balls.push_back({way[i], solid_.distance(way[i])});
+    const std::vector<double> before = outside_;
+    cover(balls);
+    for (std::size_t v = 0; v < outside_.size(); ++v)
+      if (before[v] > 0 && outside_[v] < before[v]) {
+        graph_.arc_of_vertex[v] = added;
+        graph_.hub_of_vertex[v] = kNone;
+      }
+  }
+
+  ArcGraph& graph_;
+  const SurfaceSnapshot& surface_;
+  const BoundingVolumeHierarchy& solid_;
+  const VertexSlices& slices_;
+  const PruningOptions& options_;
+  double step_;
+  std::vector<double> outside_;  // per vertex: distance beyond all balls, at most 0 where done with
+  std::unique_ptr<InnerGraph> inner_;
+};
+
+}  // namespace detail
+
+inline Index complete_limbs(ArcGraph& graph, const SurfaceSnapshot& surface,
+                            const BoundingVolumeHierarchy& solid, const VertexSlices& slices,
+                            const PruningOptions& options, double step) {
+  const Index added = detail::LimbCompletion(graph, surface, solid, slices, options, step).run();
+  return added;
+}
+
+}  // namespace mspskel
