@@ -1,6 +1,7 @@
 // From a mesh to its curve skeleton in one call: the composition of the public stages.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "mspskel/graph/make_curve_skeleton.h"
 #include "mspskel/graph/refine_arcs.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
+#include "mspskel/mesh/coarsen_surface.h"
 #include "mspskel/slice/cone_refinement.h"
 #include "mspskel/slice/plane_search.h"
 #include "mspskel/slice/slice_error.h"
@@ -31,6 +33,10 @@ enum class SliceMethod {
 
 struct ExtractOptions {
   Mode mode = Mode::kDefault;
+  // Slices, skeletal points and the collapse run on a coarser surface where the input has more vertices than
+  // this one is to have; arcs are centred in the input's solid, and values are carried over to its vertices.
+  bool coarsen = true;
+  CoarseningOptions coarsening;
   SliceMethod slices = SliceMethod::kSearch;
   SearchOptions search;      // of kSearch
   SamplingOptions sampling;  // of kSampling
@@ -56,12 +62,15 @@ void validate(const ExtractOptions& options);
 struct ExtractResult {
   CurveSkeleton skeleton;
 
-  // What lies between the stages, in the order in which they ran; lengths in surface.frame.
+  // What lies between the stages, in the order in which they ran; lengths in surface.frame. Everything per
+  // vertex is per input vertex; where a coarser surface was used, its values are carried over.
   SurfaceSnapshot surface;
+  std::optional<CoarseSurface> coarse;
   VertexSlices initial_slices;  // before cone refinement; equal to slices where nothing refines
   VertexSlices slices;
   SkeletonMesh skeleton_mesh;
-  VolumeCocycles cocycles;
+  VolumeCocycles
+      cocycles;  // of the surface that was collapsed: half-edges are coarse->surface's if there is one
   CollapsedSkeleton collapsed;  // after branch filtering, if that is on
   BranchFilterResult filter;    // its counts; its skeleton is moved to `collapsed`
   RefinementCounts refinement;

@@ -41,13 +41,59 @@ inline void run_slice_stages(const SliceTracer& tracer, const ExtractOptions& op
   clock.lap("slice_error");
 }
 
-inline void report_shells(const ExtractResult& result, std::vector<std::string>& warnings) {
+// From slices to the collapsed graph, all on one surface.
+inline void run_surface_stages(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
+                               const ExtractOptions& options, ExtractResult& result, StageClock& clock) {
+  const SliceTracer tracer(surface);
+  run_slice_stages(tracer, options, result, clock);
+  SkeletonMeshOptions points = options.points;
+  // Holes of a slice are contours of the surface that was sliced.
+  std::optional<BoundingVolumeHierarchy> own;
+  if (result.coarse && points.holes != HoleSearch::kIgnore) own.emplace(surface);
+  points.solid = own ? &*own : &solid;
+  result.skeleton_mesh = make_skeleton_mesh(tracer, result.slices, points, options.execution);
+  clock.lap("skeletal_points");
+  if (options.coherence.enabled) {
+    apply_spatial_coherence(surface, options.coherence, result.skeleton_mesh);
+    clock.lap("coherence");
+  }
+  result.cocycles = compute_volume_cocycles(surface, slice_candidates(result.slices), options.cocycles,
+                                            options.execution.progress);
+  clock.lap("cocycles");
+  result.collapsed = collapse_skeleton_mesh(surface, result.skeleton_mesh, result.cocycles.label,
+                                            options.collapse, options.execution);
+  clock.lap("collapse");
+  if (!options.filter_branches) return;
+  result.filter = filter_branches(result.collapsed, options.filter);
+  result.collapsed = std::move(result.filter.skeleton);
+  clock.lap("filter");
+}
+
+// What is known of the coarse vertices holds for the input vertices that merged into them.
+inline void carry_over(ExtractResult& result, ArcGraph& arcs) {
+  const std::vector<Index>& from = result.coarse->coarse_vertex;
+  result.initial_slices = carried_over(result.initial_slices, from);
+  result.slices = carried_over(result.slices, from);
+  SkeletonMesh& mesh = result.skeleton_mesh;
+  mesh.position = carried_over(mesh.position, from, Vector3(Vector3::Zero()));
+  mesh.perimeter = carried_over(mesh.perimeter, from, 0.0);
+  mesh.normal = carried_over(mesh.normal, from, Vector3(Vector3::Zero()));
+  mesh.error = carried_over(mesh.error, from, 1.0);
+  mesh.valid = carried_over(mesh.valid, from, std::uint8_t{0});
+  mesh.area = result.surface.vertex_area;
+  result.collapsed.node_of_vertex = carried_over(result.collapsed.node_of_vertex, from, kNone);
+  if (arcs.arc_of_vertex.empty()) return;
+  arcs.arc_of_vertex = carried_over(arcs.arc_of_vertex, from, kNone);
+  arcs.hub_of_vertex = carried_over(arcs.hub_of_vertex, from, kNone);
+}
+
+inline void collect_warnings(ExtractResult& result) {
   if (result.skeleton_mesh.without_slice > 0)
-    warnings.push_back(std::to_string(result.skeleton_mesh.without_slice) +
-                       " vertices have no valid slice; their neighbours' skeletal points stand in");
+    result.warnings.push_back(std::to_string(result.skeleton_mesh.without_slice) +
+                              " vertices have no valid slice; their neighbours' skeletal points stand in");
   if (result.refinement.routing.unroutable > 0)
-    warnings.push_back(std::to_string(result.refinement.routing.unroutable) +
-                       " stretches of the skeleton leave the solid and no way inside was found");
+    result.warnings.push_back(std::to_string(result.refinement.routing.unroutable) +
+                              " stretches of the skeleton leave the solid and no way inside was found");
 }
 
 }  // namespace detail
@@ -67,6 +113,7 @@ inline ExtractOptions default_options() {
 inline ExtractOptions thesis_options() {
   ExtractOptions o;
   o.mode = Mode::kThesis;
+  o.coarsen = false;
   o.slices = SliceMethod::kSampling;
   o.error = {SliceErrorAverage::kMean, SliceErrorScale::kMinMax};
   o.points.point.method = SkeletalPointMethod::kSampledForce;
@@ -77,6 +124,7 @@ inline ExtractOptions thesis_options() {
 }
 
 inline void validate(const ExtractOptions& options) {
+  validate(options.coarsening);
   validate(options.search);
   validate(options.sampling);
   validate(options.cone);
@@ -93,43 +141,31 @@ inline ExtractResult extract_skeleton_of_snapshot(SurfaceSnapshot surface, const
   ExtractResult result;
   detail::StageClock clock(result.seconds);
   result.surface = std::move(surface);
-  const SurfaceSnapshot& s = result.surface;
-  const SliceTracer tracer(s);
-  const BoundingVolumeHierarchy solid(s);
-  clock.lap("prepare");
-  detail::run_slice_stages(tracer, options, result, clock);
-
-  SkeletonMeshOptions points = options.points;
-  points.solid = &solid;
-  result.skeleton_mesh = make_skeleton_mesh(tracer, result.slices, points, options.execution);
-  clock.lap("skeletal_points");
-  if (options.coherence.enabled) {
-    apply_spatial_coherence(s, options.coherence, result.skeleton_mesh);
-    clock.lap("coherence");
+  const BoundingVolumeHierarchy solid(result.surface);
+  clock.lap("hierarchy");
+  if (options.coarsen && result.surface.vertex_count() > options.coarsening.vertices) {
+    result.coarse = coarsen_surface(result.surface, options.coarsening, options.execution);
+    clock.lap("coarsening");
   }
-  result.cocycles = compute_volume_cocycles(s, slice_candidates(result.slices), options.cocycles,
-                                            options.execution.progress);
-  clock.lap("cocycles");
-  result.collapsed = collapse_skeleton_mesh(s, result.skeleton_mesh, result.cocycles.label, options.collapse,
-                                            options.execution);
-  clock.lap("collapse");
-  if (options.filter_branches) {
-    result.filter = filter_branches(result.collapsed, options.filter);
-    result.collapsed = std::move(result.filter.skeleton);
-    clock.lap("filter");
-  }
+  const SurfaceSnapshot& working = result.coarse ? result.coarse->surface : result.surface;
+  detail::run_surface_stages(working, solid, options, result, clock);
+  ArcGraph arcs;
   if (options.refinement.enabled) {
-    ArcGraph arcs = make_arc_graph(result.collapsed);
-    result.refinement = refine_arcs(arcs, s, solid, result.slices, options.refinement, options.execution);
+    arcs = make_arc_graph(result.collapsed);
+    result.refinement =
+        refine_arcs(arcs, working, solid, result.slices, options.refinement, options.execution);
     clock.lap("arcs");
-    result.skeleton = make_curve_skeleton(arcs, s, solid, result.skeleton_mesh.perimeter,
+  }
+  if (result.coarse) detail::carry_over(result, arcs);
+  if (options.refinement.enabled) {
+    result.skeleton = make_curve_skeleton(arcs, result.surface, solid, result.skeleton_mesh.perimeter,
                                           result.skeleton_mesh.error, options.execution);
   } else {
-    result.skeleton = make_curve_skeleton(result.collapsed, s.frame);
-    set_radii(s, solid, result.skeleton, options.execution);
+    result.skeleton = make_curve_skeleton(result.collapsed, result.surface.frame);
+    set_radii(result.surface, solid, result.skeleton, options.execution);
   }
   clock.lap("result");
-  detail::report_shells(result, result.warnings);
+  detail::collect_warnings(result);
   return result;
 }
 

@@ -37,6 +37,32 @@ struct VertexSlices {
   }
 };
 
+// The entries of `source` in the order of `index`; kNone gives `missing`.
+template <class Value>
+std::vector<Value> carried_over(const std::vector<Value>& source, const std::vector<Index>& index,
+                                const Value& missing) {
+  std::vector<Value> values;
+  values.reserve(index.size());
+  for (const Index i : index) values.push_back(i == kNone ? missing : source[i]);
+  return values;
+}
+
+// The slices of a coarser surface for every vertex of the finer one that merged into one of its vertices.
+inline VertexSlices carried_over(const VertexSlices& coarse, const std::vector<Index>& coarse_vertex) {
+  VertexSlices s;
+  s.perimeter = carried_over(coarse.perimeter, coarse_vertex, 0.0);
+  s.normal = carried_over(coarse.normal, coarse_vertex, Vector3(Vector3::Zero()));
+  s.centre = carried_over(coarse.centre, coarse_vertex, Vector3(Vector3::Zero()));
+  s.area = carried_over(coarse.area, coarse_vertex, 0.0);
+  s.error = carried_over(coarse.error, coarse_vertex, 1.0);
+  s.contour_points = carried_over(coarse.contour_points, coarse_vertex, Index{0});
+  s.valid = carried_over(coarse.valid, coarse_vertex, std::uint8_t{0});
+  s.refined = carried_over(coarse.refined, coarse_vertex, std::uint8_t{0});
+  s.slices = coarse.slices;
+  s.steps = coarse.steps;
+  return s;
+}
+
 // The contour of v's slice; false if v has none.
 inline bool slice_contour(const SliceTracer& tracer, const VertexSlices& slices, Index v, Contour& contour) {
   std::int64_t steps = 0;

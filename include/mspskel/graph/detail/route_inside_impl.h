@@ -16,7 +16,13 @@ class InnerGraph {
       if (surface.vertex_halfedge[v] == kNone) continue;
       const Vector3 inward = -surface.normal[v];
       // The start lies off the surface by far less than a chord and far more than rounding.
-      const Vector3 start = surface.position[v] + 1e-7 * inward;
+      Vector3 start = surface.position[v] + 1e-7 * inward;
+      // A vertex of a coarser surface may lie outside the solid: the chord starts where the ray enters.
+      if (!solid.inside(start)) {
+        const auto entry = solid.first_hit(start, inward);
+        if (!entry) continue;
+        start += (entry->distance + 1e-7) * inward;
+      }
       const auto hit = solid.first_hit(start, inward);
       if (!hit || hit->distance <= 0) continue;
       const Vector3 middle = start + 0.5 * hit->distance * inward;
