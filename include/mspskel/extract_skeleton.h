@@ -15,6 +15,7 @@
 #include "mspskel/graph/collapsed_arcs.h"
 #include "mspskel/graph/make_curve_skeleton.h"
 #include "mspskel/graph/refine_arcs.h"
+#include "mspskel/graph/restore_cycles.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/mesh/coarsen_surface.h"
 #include "mspskel/slice/cone_refinement.h"
@@ -74,6 +75,7 @@ struct ExtractResult {
   CollapsedSkeleton collapsed;  // after branch filtering, if that is on
   BranchFilterResult filter;    // its counts; its skeleton is moved to `collapsed`
   RefinementCounts refinement;
+  CycleRestoration restoration;
   std::vector<std::pair<std::string, double>> seconds;  // stage, wall seconds
   std::vector<std::string> warnings;
 };

@@ -94,6 +94,9 @@ inline void collect_warnings(ExtractResult& result) {
   if (result.refinement.routing.unroutable > 0)
     result.warnings.push_back(std::to_string(result.refinement.routing.unroutable) +
                               " stretches of the skeleton leave the solid and no way inside was found");
+  if (result.restoration.abandoned > 0)
+    result.warnings.push_back(std::to_string(result.restoration.abandoned) +
+                              " cycles of the skeleton miss their handle and no way round it was found");
 }
 
 }  // namespace detail
@@ -154,6 +157,8 @@ inline ExtractResult extract_skeleton_of_snapshot(SurfaceSnapshot surface, const
     arcs = make_arc_graph(result.collapsed);
     result.refinement =
         refine_arcs(arcs, working, solid, result.slices, options.refinement, options.execution);
+    result.restoration = restore_cycles(arcs, working, solid, result.cocycles);
+    if (result.restoration.restored > 0) subdivide(arcs, 1.25 * options.refinement.centering.step);
     clock.lap("arcs");
   }
   if (result.coarse) detail::carry_over(result, arcs);
