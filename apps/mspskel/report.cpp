@@ -64,9 +64,6 @@ Json stage_seconds(const ExtractResult& result, const ProgramSeconds& program) {
 Json make_report(const ExtractSettings& settings, const ExtractResult& result) {
   const GraphCounts graph = count_graph(result.skeleton);
   const BoundingVolumeHierarchy solid(result.surface);
-  // The certificate speaks of the input, whatever surface the collapse ran on.
-  const VolumeCocycles cocycles =
-      result.coarse ? compute_volume_cocycles(result.surface, slice_candidates(result.slices)) : result.cocycles;
   return {{"input", input_facts(settings, result)},
           {"counts", work_counts(result)},
           {"skeleton",
@@ -76,7 +73,7 @@ Json make_report(const ExtractSettings& settings, const ExtractResult& result) {
             {"cycles", graph.cycles},
             {"leaves", graph.leaves},
             {"length", graph.length}}},
-          {"checks", certificate_json(certify(result.surface, cocycles, solid, result.skeleton))},
+          {"checks", certificate_json(certify(result.surface, result.cocycles, solid, result.skeleton))},
           {"warnings", result.warnings}};
 }
 

@@ -93,3 +93,10 @@ ExtractResult extract_skeleton_of_snapshot(SurfaceSnapshot surface, const Extrac
 }  // namespace mspskel
 
 #include "mspskel/detail/extract_skeleton_impl.h"
+
+#ifdef MSPSKEL_COMPILED
+// The compiled library holds it; other mesh types are instantiated where they are used.
+namespace mspskel {
+extern template ExtractResult extract_skeleton<DefaultMesh>(const DefaultMesh&, const ExtractOptions&);
+}
+#endif

@@ -157,12 +157,19 @@ inline ExtractResult extract_skeleton_of_snapshot(SurfaceSnapshot surface, const
     arcs = make_arc_graph(result.collapsed);
     result.refinement =
         refine_arcs(arcs, working, solid, result.slices, options.refinement, options.execution);
-    result.restoration = restore_cycles(arcs, working, solid, result.cocycles);
-    if (result.restoration.restored > 0) subdivide(arcs, 1.25 * options.refinement.centering.step);
     clock.lap("arcs");
   }
-  if (result.coarse) detail::carry_over(result, arcs);
+  if (result.coarse) {
+    detail::carry_over(result, arcs);
+    result.cocycles = compute_volume_cocycles(result.surface, slice_candidates(result.slices),
+                                              options.cocycles, options.execution.progress);
+    clock.lap("cocycles");
+  }
   if (options.refinement.enabled) {
+    // Last, on the input itself: centring may pull an arc off a handle that is small beside its step.
+    result.restoration = restore_cycles(arcs, result.surface, solid, result.cocycles);
+    if (result.restoration.restored > 0) subdivide(arcs, 1.25 * options.refinement.centering.step);
+    clock.lap("arcs");
     result.skeleton = make_curve_skeleton(arcs, result.surface, solid, result.skeleton_mesh.perimeter,
                                           result.skeleton_mesh.error, options.execution);
   } else {
