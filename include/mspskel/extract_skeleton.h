@@ -70,8 +70,7 @@ struct ExtractResult {
   VertexSlices initial_slices;  // before cone refinement; equal to slices where nothing refines
   VertexSlices slices;
   SkeletonMesh skeleton_mesh;
-  VolumeCocycles
-      cocycles;  // of the surface that was collapsed: half-edges are coarse->surface's if there is one
+  VolumeCocycles cocycles;      // of `surface`
   CollapsedSkeleton collapsed;  // after branch filtering, if that is on
   BranchFilterResult filter;    // its counts; its skeleton is moved to `collapsed`
   RefinementCounts refinement;
