@@ -34,7 +34,8 @@ void check_result(const ExtractResult& result) {
 
 TEST_CASE("Unusual meshes keep their topology in both modes") {
   for (const auto& [name, mesh] : unusual_meshes())
-    for (const ExtractOptions& options : {default_options(), thesis_options()}) {
+    for (ExtractOptions options : {default_options(), thesis_options()}) {
+      options.execution.threads = 1;
       INFO(name << (options.mode == Mode::kThesis ? ", thesis mode" : ", default mode"));
       check_result(extract_skeleton(mesh, options));
     }

@@ -63,6 +63,19 @@ TEST_CASE("Arc points lie at most a step apart") {
     CHECK((points[i] - points[i - 1]).norm() < 1.2 * options.step);
 }
 
+TEST_CASE("Without rounds arcs are resampled and stay where they are") {
+  const Solid solid(tube(1, 12, 24, 24));
+  ArcGraph graph = arc_along_tube(solid, [](double z) { return Vector3(0.4, 0.3, z); });
+  CenteringOptions options;
+  options.rounds = 0;
+  options.step = 0.02;
+  center_arcs(graph, solid.hierarchy, options);
+  const auto& points = graph.arcs[0].points;
+  for (std::size_t i = 1; i < points.size(); ++i)
+    CHECK((points[i] - points[i - 1]).norm() < (1 + 1e-6) * options.step);
+  for (const Vector3& p : points) CHECK(off_axis(solid.surface.frame.to_model(p)) == Approx(0.5));
+}
+
 TEST_CASE("The centre line of a torus keeps its loop") {
   const Solid solid(torus(1, 0.3, 40, 16));
   ArcGraph graph;

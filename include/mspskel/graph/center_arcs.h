@@ -51,7 +51,8 @@ VisibleSection visible_section(const BoundingVolumeHierarchy& solid, const Vecto
 
 // Resamples every arc at options.step and centres it: minimises Σ w|x − c|² + μ Σ|x − mean of neighbours|²
 // over all points, with c the section's centre, w = roundness² / (1 + (|c − x| / 0.7 R)⁴) and μ = smoothness
-// · (distance to the surface / step)², leaf ends held, joints nearly free. A point moves only as far as its
+// · (distance to the surface / step)²; leaf ends stay in their section, joints are nearly free. Steps that
+// would cut a corner through the surface keep the corner between them. A point moves only as far as its
 // edges stay off the surface, so what is inside stays inside. Cost: O(points · rays · log faces) a round.
 // Throws UsageError, Cancelled.
 void center_arcs(ArcGraph& graph, const BoundingVolumeHierarchy& solid, const CenteringOptions& options,

@@ -200,9 +200,13 @@ inline VisibleSection visible_section(const BoundingVolumeHierarchy& solid, cons
 inline void center_arcs(ArcGraph& graph, const BoundingVolumeHierarchy& solid,
                         const CenteringOptions& options, const Execution& execution) {
   validate(options);
-  for (int round = 0; round < options.rounds; ++round) {
+  const auto resample = [&] {
     for (Arc& arc : graph.arcs)
       if (arc.alive) arc.points = detail::resampled_inside(arc, options.step, solid);
+  };
+  resample();
+  for (int round = 0; round < options.rounds; ++round) {
+    if (round > 0) resample();
     detail::ArcPoints points(graph);
     const auto tangent = detail::smooth_tangents(points, options.tangent_smoothing);
     std::vector<detail::Pull> pulls(points.x.size());
