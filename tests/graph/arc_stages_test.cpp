@@ -111,6 +111,10 @@ TEST_CASE("Random graphs are routed inside, and every stage keeps them there, wi
       CHECK(spur_count(graph, solid.hierarchy) == 0);
       center_arcs(graph, solid.hierarchy, coarse);
       check("centring again");
+      complete_limbs(graph, solid.surface, solid.hierarchy, slices, {}, coarse.step);
+      check("completion of limbs");
+      subdivide(graph, 0.01);
+      check("subdivision");
     }
   }
 }
@@ -337,6 +341,28 @@ TEST_CASE("Pruning takes a hair and leaves the limbs") {
   prune_branches(graph, solid.surface, solid.hierarchy, solid.slices(), all);
   CHECK(type_of(graph) == GraphType{1, 0});
   CHECK(living_arcs(graph) == 1);
+}
+
+TEST_CASE("A limb without an arc gets one, and nothing is added where all have theirs") {
+  const Solid solid(to_mesh(skin_graph(tripod(), 1200)));
+  const VertexSlices slices = solid.slices();
+  ArcGraph whole = tripod_arcs(solid, 0.97);
+  CHECK(complete_limbs(whole, solid.surface, solid.hierarchy, slices, {}, 0.01) == 0);
+  ArcGraph graph = whole;
+  remove_leaf_arc(graph, 2, 0);
+  dissolve_through_hubs(graph);
+  CHECK(complete_limbs(graph, solid.surface, solid.hierarchy, slices, {}, 0.01) == 1);
+  CHECK(leaf_count(graph) == 3);
+  CHECK(type_of(graph) == GraphType{1, 0});
+  CHECK(arcs_meet_hubs(graph));
+  CHECK(map_is_partition(graph));
+  CHECK(crossings(graph, solid.hierarchy) == 0);
+  double nearest = 10;
+  const auto at = graph.incidence();
+  for (Index h = 0; h < graph.hub_count(); ++h)
+    if (at[h].size() == 1)
+      nearest = std::min(nearest, (solid.model(graph.hub_position[h]) - tripod().nodes[3].position).norm());
+  CHECK(nearest < 0.5);
 }
 
 TEST_CASE("A star in a ball is pruned to one arc") {
