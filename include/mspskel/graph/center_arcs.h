@@ -13,7 +13,7 @@ namespace mspskel {
 
 struct CenteringOptions {
   double step = 0.008;        // distance of arc points, share of the model's extent; 0.0005 to 0.5
-  int rounds = 10;            // rounds of sections and solve, 0 to 100
+  int rounds = 6;             // rounds of sections and solve, 0 to 100
   int rays = 24;              // rays a cross-section, 4 to 256
   int tangent_smoothing = 3;  // rounds of neighbour averages before tangents are taken, 0 to 100
   // Weight of |x − mean of neighbours|² against |x − centre|² where the solid is as thick as the step is
@@ -51,10 +51,10 @@ VisibleSection visible_section(const BoundingVolumeHierarchy& solid, const Vecto
 
 // Resamples every arc at options.step and centres it: minimises Σ w|x − c|² + μ Σ|x − mean of neighbours|²
 // over all points, with c the section's centre, w = roundness² / (1 + (|c − x| / 0.7 R)⁴) and μ = smoothness
-// · (distance to the surface / step)²; leaf ends stay in their section, joints are nearly free. Steps that
-// would cut a corner through the surface keep the corner between them. A point moves only as far as its
-// edges stay off the surface, so what is inside stays inside. Cost: O(points · rays · log faces) a round.
-// Throws UsageError, Cancelled.
+// · (distance to the surface / step)² · (0.008 / step)²; leaf ends stay in their section, joints are nearly
+// free. Steps that would cut a corner through the surface keep the corner between them. A point moves only as
+// far as its edges stay off the surface, so what is inside stays inside.
+// Cost: O(points · rays · log faces) a round. Throws UsageError, Cancelled.
 void center_arcs(ArcGraph& graph, const BoundingVolumeHierarchy& solid, const CenteringOptions& options,
                  const Execution& execution = {});
 

@@ -10,7 +10,7 @@ namespace mspskel {
 
 struct PruningOptions {
   // A leaf arc stays if its significance exceeds this; 0 to 100. Larger keeps fewer features.
-  double significance = 1.2;
+  double significance = 1.35;
   // ... and if its surface reaches beyond the balls of the rest of the skeleton by more than this share of
   // the model's extent; 0 to 1. Below it everything counts as noise.
   double smallest = 0.01;

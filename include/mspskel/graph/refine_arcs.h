@@ -56,8 +56,11 @@ inline RefinementCounts refine_arcs(ArcGraph& graph, const SurfaceSnapshot& surf
     counts.joints_merged += merge_joints(graph, solid, options.joint_overlap);
     dissolve_through_hubs(graph);
   };
+  // Until the graph's shape is settled a coarser line will do.
   CenteringOptions few = options.centering;
   few.rounds = (options.centering.rounds + 2) / 3;
+  few.step = 2 * options.centering.step;
+  few.rays = std::max(4, 2 * options.centering.rays / 3);
   counts.routing = route_inside(graph, surface, solid);
   aim_ends(graph, surface, solid, options.centering.step);
   prune(options.first_pruning);  // hairs would pull on the arcs that they leave

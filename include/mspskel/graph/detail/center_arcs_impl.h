@@ -127,7 +127,9 @@ inline Pull section_pull(const BoundingVolumeHierarchy& solid, const Vector3& x,
   const VisibleSection section = visible_section(solid, x, tangent, options.rays);
   if (!section.closed || section.radius <= 0) return {x, 1e-3, 1.0};
   const double move = (section.centre - x).norm() / (0.7 * section.radius);
-  const double thickness = section.clearance / options.step;
+  // A second difference grows with the square of the step; the reference makes the curve independent of it.
+  constexpr double kReferenceStep = 0.008;
+  const double thickness = section.clearance * kReferenceStep / (options.step * options.step);
   return {section.centre, section.roundness * section.roundness / (1 + std::pow(move, 4)),
           thickness * thickness};
 }

@@ -111,8 +111,9 @@ class LimbCompletion {
     alone.add_hub(way.back());
     alone.arcs.push_back({{0, 1}, way, true});
     CenteringOptions few;
-    few.step = step_;
-    few.rounds = 3;
+    few.step = 2 * step_;
+    few.rounds = 2;
+    few.rays = 16;
     Execution one_thread;
     one_thread.threads = 1;
     center_arcs(alone, solid_, few, one_thread);
