@@ -193,6 +193,7 @@ void write_pictures(const Study& study, const std::string& folder, const Executi
 
 void write_time_chart(const std::vector<Study>& studies, const std::string& folder) {
   std::vector<ChartSeries> all;
+  double highest = 0;
   for (std::size_t i = 0; i < studies.size(); ++i) {
     ChartSeries series;
     series.name = studies[i].name;
@@ -201,6 +202,7 @@ void write_time_chart(const std::vector<Study>& studies, const std::string& fold
     for (const PlaneRun& run : studies[i].planes) {
       series.x.push_back(run.planes);
       series.y.push_back(1e6 * run.seconds / studies[i].thesis.surface.vertex_count());
+      highest = std::max(highest, series.y.back());
     }
     all.push_back(std::move(series));
   }
@@ -208,6 +210,7 @@ void write_time_chart(const std::vector<Study>& studies, const std::string& fold
   options.title = "Time over the number of slices";
   options.x_label = "slices at a vertex";
   options.y_label = "microseconds a vertex";
+  options.y_max = 1.7 * highest;  // room for the legend
   write_png(folder, "time-over-planes.png", chart(all, options));
 }
 
