@@ -123,6 +123,7 @@ void add_arc_options(CommandLine& line, ExtractOptions& options, double& step, d
   line.group("Arcs; lengths are shares of the model's extent");
   line.toggle("refine", refinement.enabled, "lead arcs inside, prune, centre and extend them");
   line.number("--step", step, {0.0005, 0.5}, "distance of the nodes along an arc");
+  line.number("--nodes", refinement.nodes, {0, 1e9}, "at most so many nodes; 0: as many as the step gives");
   line.number("--detail", detail, {0.01, 100},
               "2 keeps branches half as significant as 1 does, 0.5 only those twice as significant");
   line.number("--smallest", refinement.pruning.smallest, {0, 1}, "features below this size are noise");

@@ -169,6 +169,12 @@ inline ExtractResult extract_skeleton_of_snapshot(SurfaceSnapshot surface, const
     // Last, on the input itself: centring may pull an arc off a handle that is small beside its step.
     result.restoration = restore_cycles(arcs, result.surface, solid, result.cocycles);
     if (result.restoration.restored > 0) subdivide(arcs, 1.25 * options.refinement.centering.step);
+    if (options.refinement.nodes > 0) {
+      const Index left = limit_nodes(arcs, solid, options.refinement.nodes);
+      if (left > options.refinement.nodes)
+        result.warnings.push_back("the skeleton keeps " + std::to_string(left) + " nodes: with " +
+                                  std::to_string(options.refinement.nodes) + " it would leave the solid");
+    }
     clock.lap("arcs");
     result.skeleton = make_curve_skeleton(arcs, result.surface, solid, result.skeleton_mesh.perimeter,
                                           result.skeleton_mesh.error, options.execution);

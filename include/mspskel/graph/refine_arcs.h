@@ -6,6 +6,7 @@
 #include "mspskel/graph/center_arcs.h"
 #include "mspskel/graph/complete_limbs.h"
 #include "mspskel/graph/extend_ends.h"
+#include "mspskel/graph/limit_nodes.h"
 #include "mspskel/graph/merge_joints.h"
 #include "mspskel/graph/prune_branches.h"
 #include "mspskel/graph/route_inside.h"
@@ -19,6 +20,7 @@ struct RefinementOptions {
   CenteringOptions centering;
   ExtensionOptions extension;
   ZipOptions zip;
+  Index nodes = 0;             // budget of nodes, 0: none
   double joint_overlap = 1.0;  // joints closer than this many radii of the smaller ball are one, 0 to 10
   double first_pruning = 0.3;  // share of the pruning thresholds before arcs are centred, 0 to 1
 };
@@ -28,6 +30,7 @@ inline void validate(const RefinementOptions& o) {
   validate(o.centering);
   validate(o.extension);
   validate(o.zip);
+  if (o.nodes < 0) throw UsageError("nodes must be at least 0");
   if (!(o.joint_overlap >= 0 && o.joint_overlap <= 10))
     throw UsageError("joint overlap must be from 0 to 10 radii");
   if (!(o.first_pruning >= 0 && o.first_pruning <= 1)) throw UsageError("first pruning must be from 0 to 1");
