@@ -2,9 +2,8 @@
 # Installs what scripts/packages.txt lists and the machine lacks. Debian or Ubuntu, as root or with sudo.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
-mapfile -t wanted < <(grep -v '^#' "$here/packages.txt")
 missing=()
-for package in "${wanted[@]}"; do
+for package in $(grep -v '^#' "$here/packages.txt"); do
   [[ $(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null || true) == installed ]] || missing+=("$package")
 done
 ((${#missing[@]})) || exit 0
