@@ -18,6 +18,7 @@
 #include "mspskel/graph/restore_cycles.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/mesh/coarsen_surface.h"
+#include "mspskel/mesh/orient_shells.h"
 #include "mspskel/slice/cone_refinement.h"
 #include "mspskel/slice/plane_search.h"
 #include "mspskel/slice/slice_error.h"

@@ -146,11 +146,17 @@ inline ExtractResult extract_skeleton_of_snapshot(SurfaceSnapshot surface, const
   result.surface = std::move(surface);
   const BoundingVolumeHierarchy solid(result.surface);
   clock.lap("hierarchy");
-  if (options.coarsen && result.surface.vertex_count() > options.coarsening.vertices) {
-    result.coarse = coarsen_surface(result.surface, options.coarsening, options.execution);
+  // Each shell bounds a solid of its own, the ones round cavities too.
+  const std::optional<SurfaceSnapshot> oriented = orient_shells_outward(result.surface);
+  const SurfaceSnapshot& shells = oriented ? *oriented : result.surface;
+  if (oriented)
+    result.warnings.push_back(
+        "shells that are turned inward (cavities) get a skeleton of their own, which lies in the cavity");
+  if (options.coarsen && shells.vertex_count() > options.coarsening.vertices) {
+    result.coarse = coarsen_surface(shells, options.coarsening, options.execution);
     clock.lap("coarsening");
   }
-  const SurfaceSnapshot& working = result.coarse ? result.coarse->surface : result.surface;
+  const SurfaceSnapshot& working = result.coarse ? result.coarse->surface : shells;
   detail::run_surface_stages(working, solid, options, result, clock);
   ArcGraph arcs;
   if (options.refinement.enabled) {
@@ -159,8 +165,8 @@ inline ExtractResult extract_skeleton_of_snapshot(SurfaceSnapshot surface, const
         refine_arcs(arcs, working, solid, result.slices, options.refinement, options.execution);
     clock.lap("arcs");
   }
-  if (result.coarse) {
-    detail::carry_over(result, arcs);
+  if (result.coarse) detail::carry_over(result, arcs);
+  if (result.coarse || oriented) {
     result.cocycles = compute_volume_cocycles(result.surface, slice_candidates(result.slices),
                                               options.cocycles, options.execution.progress);
     clock.lap("cocycles");

@@ -39,6 +39,16 @@ struct ArcGraph {
   std::vector<std::vector<Index>> incidence() const;
 };
 
+// What every stage has to keep: b0 and b1.
+struct ArcGraphType {
+  Index components = 0;
+  Index cycles = 0;
+  bool operator==(const ArcGraphType& other) const {
+    return components == other.components && cycles == other.cycles;
+  }
+};
+ArcGraphType homotopy_type(const ArcGraph& graph);
+
 double arc_length(const Arc& arc);
 
 // The points in order from the hub at the given end, 0 or 1.

@@ -44,47 +44,118 @@ struct RefinementCounts {
   RoutingResult routing;
 };
 
+namespace detail {
+
+// The stages of refine_arcs on one graph. Each has to keep the graph's homotopy type, and is held to it.
+class ArcRefinement {
+ public:
+  ArcRefinement(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
+                const VertexSlices& slices, const RefinementOptions& options, const Execution& execution)
+      : graph_(graph),
+        surface_(surface),
+        solid_(solid),
+        slices_(slices),
+        options_(options),
+        execution_(execution),
+        type_(homotopy_type(graph)),
+        draft_(options.centering) {
+    // Until the graph's shape is settled a coarser line will do.
+    draft_.rounds = (options.centering.rounds + 2) / 3;
+    draft_.step = 2 * options.centering.step;
+    draft_.rays = std::max(4, 2 * options.centering.rays / 3);
+  }
+
+  RefinementCounts run() {
+    route();
+    aim();
+    prune(options_.first_pruning);  // hairs would pull on the arcs that they leave
+    for (int pass = 0; pass < 2; ++pass) {
+      center(draft_);
+      zip();
+      prune(1.0);
+    }
+    aim();
+    complete();
+    center(draft_);
+    zip();
+    extend();
+    center(draft_);
+    prune(1.0);
+    center(options_.centering);
+    if (drop_spurs() > 0) center(options_.centering);
+    subdivide(graph_, 1.25 * options_.centering.step);  // rounds of centring stretch some edges
+    return counts_;
+  }
+
+ private:
+  void keep_type(const char* stage) const {
+    if (!(homotopy_type(graph_) == type_))
+      throw NoSkeletonError(std::string(stage) + " would have changed the skeleton's topology");
+  }
+
+  void route() {
+    counts_.routing = route_inside(graph_, surface_, solid_);
+    keep_type("routing inside");
+  }
+  void aim() {
+    aim_ends(graph_, surface_, solid_, options_.centering.step);
+    keep_type("aiming of ends");
+  }
+  void prune(double share) {
+    PruningOptions pruning = options_.pruning;
+    pruning.significance *= share;
+    pruning.smallest *= share;
+    counts_.pruned += prune_branches(graph_, surface_, solid_, slices_, pruning);
+    keep_type("pruning");
+    counts_.joints_merged += merge_joints(graph_, solid_, options_.joint_overlap);
+    dissolve_through_hubs(graph_);
+    keep_type("merging of joints");
+  }
+  void center(const CenteringOptions& centering) {
+    center_arcs(graph_, solid_, centering, execution_);
+    keep_type("centring");
+  }
+  void zip() {
+    counts_.zips += zip_arcs(graph_, surface_, solid_, options_.zip);
+    keep_type("zipping");
+  }
+  void complete() {
+    counts_.completed =
+        complete_limbs(graph_, surface_, solid_, slices_, options_.pruning, options_.centering.step);
+    keep_type("completion of limbs");
+  }
+  void extend() {
+    extend_ends(graph_, solid_, options_.extension);
+    keep_type("extension of ends");
+  }
+  Index drop_spurs() {
+    const Index spurs = remove_spurs(graph_, solid_);
+    counts_.pruned += spurs;
+    keep_type("removal of spurs");
+    return spurs;
+  }
+
+  ArcGraph& graph_;
+  const SurfaceSnapshot& surface_;
+  const BoundingVolumeHierarchy& solid_;
+  const VertexSlices& slices_;
+  const RefinementOptions& options_;
+  const Execution& execution_;
+  const ArcGraphType type_;
+  CenteringOptions draft_;
+  RefinementCounts counts_;
+};
+
+}  // namespace detail
+
 // Every step keeps the number of components and of independent cycles: leaf arcs go, arcs that are no loops
-// contract, points move. `slices` are those of the surface's vertices. Throws UsageError, Cancelled.
+// contract, points move. `slices` are those of the surface's vertices. Throws UsageError, Cancelled, and
+// NoSkeletonError if a step broke that promise, which would be a bug.
 inline RefinementCounts refine_arcs(ArcGraph& graph, const SurfaceSnapshot& surface,
                                     const BoundingVolumeHierarchy& solid, const VertexSlices& slices,
                                     const RefinementOptions& options, const Execution& execution = {}) {
   validate(options);
-  RefinementCounts counts;
-  const auto prune = [&](double share) {
-    PruningOptions pruning = options.pruning;
-    pruning.significance *= share;
-    pruning.smallest *= share;
-    counts.pruned += prune_branches(graph, surface, solid, slices, pruning);
-    counts.joints_merged += merge_joints(graph, solid, options.joint_overlap);
-    dissolve_through_hubs(graph);
-  };
-  // Until the graph's shape is settled a coarser line will do.
-  CenteringOptions few = options.centering;
-  few.rounds = (options.centering.rounds + 2) / 3;
-  few.step = 2 * options.centering.step;
-  few.rays = std::max(4, 2 * options.centering.rays / 3);
-  counts.routing = route_inside(graph, surface, solid);
-  aim_ends(graph, surface, solid, options.centering.step);
-  prune(options.first_pruning);  // hairs would pull on the arcs that they leave
-  for (int pass = 0; pass < 2; ++pass) {
-    center_arcs(graph, solid, few, execution);
-    counts.zips += zip_arcs(graph, surface, solid, options.zip);
-    prune(1.0);
-  }
-  aim_ends(graph, surface, solid, options.centering.step);
-  counts.completed = complete_limbs(graph, surface, solid, slices, options.pruning, options.centering.step);
-  center_arcs(graph, solid, few, execution);
-  counts.zips += zip_arcs(graph, surface, solid, options.zip);
-  extend_ends(graph, solid, options.extension);
-  center_arcs(graph, solid, few, execution);
-  prune(1.0);
-  center_arcs(graph, solid, options.centering, execution);
-  const Index spurs = remove_spurs(graph, solid);
-  counts.pruned += spurs;
-  if (spurs > 0) center_arcs(graph, solid, few, execution);
-  subdivide(graph, 1.25 * options.centering.step);  // rounds of centring stretch some edges
-  return counts;
+  return detail::ArcRefinement(graph, surface, solid, slices, options, execution).run();
 }
 
 }  // namespace mspskel

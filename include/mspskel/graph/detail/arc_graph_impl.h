@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace mspskel {
 
@@ -20,6 +21,28 @@ inline std::vector<std::vector<Index>> ArcGraph::incidence() const {
     if (arcs[a].alive)
       for (const Index hub : arcs[a].hub) at[hub].push_back(a);
   return at;
+}
+
+inline ArcGraphType homotopy_type(const ArcGraph& graph) {
+  ArcGraphType type;
+  std::vector<Index> parent(graph.hub_position.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](Index x) {
+    while (parent[x] != x) x = parent[x] = parent[parent[x]];
+    return x;
+  };
+  for (Index h = 0; h < graph.hub_count(); ++h) type.components += graph.hub_alive[h] ? 1 : 0;
+  for (const Arc& arc : graph.arcs) {
+    if (!arc.alive) continue;
+    const Index a = root(arc.hub[0]), b = root(arc.hub[1]);
+    if (a == b) {
+      ++type.cycles;
+    } else {
+      parent[a] = b;
+      --type.components;
+    }
+  }
+  return type;
 }
 
 inline double arc_length(const Arc& arc) {
