@@ -29,6 +29,7 @@ class LimbCompletion {
     for (const auto& arc : balls.arc) cover(arc);
     for (Index v = 0; v < surface.vertex_count(); ++v)
       if (graph.arc_of_vertex[v] == kNone && graph.hub_of_vertex[v] == kNone) outside_[v] = 0;
+    find_components();
   }
 
   Index run() {
@@ -62,14 +63,36 @@ class LimbCompletion {
       if ((surface_.position[w] - surface_.position[v]).norm() <= reach) outside_[w] = 0;
   }
 
-  // Points of the graph by their distance to x.
-  std::vector<std::pair<double, GraphPoint>> points_by_distance(const Vector3& x) const {
+  // The component of the surface that the piece of each hub stands for: that of the vertices on the piece.
+  void find_components() {
+    hub_component_.assign(graph_.hub_position.size(), kNone);
+    for (Index v = 0; v < surface_.vertex_count(); ++v) {
+      if (graph_.hub_of_vertex[v] != kNone) hub_component_[graph_.hub_of_vertex[v]] = surface_.component[v];
+      if (graph_.arc_of_vertex[v] == kNone) continue;
+      for (const Index hub : graph_.arcs[graph_.arc_of_vertex[v]].hub)
+        hub_component_[hub] = surface_.component[v];
+    }
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (const Arc& arc : graph_.arcs)
+        for (const int end : {0, 1}) {
+          if (!arc.alive || hub_component_[arc.hub[end]] != kNone ||
+              hub_component_[arc.hub[1 - end]] == kNone)
+            continue;
+          hub_component_[arc.hub[end]] = hub_component_[arc.hub[1 - end]];
+          changed = true;
+        }
+    }
+  }
+
+  // Points of the graph's pieces in one component of the surface, by their distance to x.
+  std::vector<std::pair<double, GraphPoint>> points_by_distance(const Vector3& x, Index component) const {
     std::vector<std::pair<double, GraphPoint>> all;
     for (Index h = 0; h < graph_.hub_count(); ++h)
-      if (graph_.hub_alive[h])
+      if (graph_.hub_alive[h] && hub_component_[h] == component)
         all.push_back({(graph_.hub_position[h] - x).norm(), {h, kNone, 0, graph_.hub_position[h]}});
     for (Index a = 0; a < graph_.arc_count(); ++a)
-      if (graph_.arcs[a].alive)
+      if (graph_.arcs[a].alive && hub_component_[graph_.arcs[a].hub[0]] == component)
         for (std::size_t i = 1; i + 1 < graph_.arcs[a].points.size(); ++i)
           all.push_back({(graph_.arcs[a].points[i] - x).norm(), {kNone, a, i, graph_.arcs[a].points[i]}});
     std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -80,7 +103,7 @@ class LimbCompletion {
   bool find_way(Index v, GraphPoint& start, std::vector<Vector3>& way) {
     constexpr std::size_t kSeen = 64;
     const Vector3& target = surface_.position[v];
-    const auto points = points_by_distance(target);
+    const auto points = points_by_distance(target, surface_.component[v]);
     for (std::size_t i = 0; i < std::min(kSeen, points.size()); ++i) {
       const Vector3& x = points[i].second.position;
       if (solid_.segment_crosses(x, x + 0.98 * (target - x))) continue;
@@ -122,7 +145,7 @@ class LimbCompletion {
     if (significance(way, ball, outside_[v]) < kCaution * options_.significance) return false;
     if (solid_.segment_crosses(start.position, way.front())) return false;
     way.insert(way.begin(), start.position);
-    add(start, way);
+    add(start, way, surface_.component[v]);
     return true;
   }
 
@@ -156,9 +179,11 @@ class LimbCompletion {
     return hub;
   }
 
-  void add(const GraphPoint& start, const std::vector<Vector3>& way) {
+  // Vertices of other components are none of the limb's business, however near they lie.
+  void add(const GraphPoint& start, const std::vector<Vector3>& way, Index component) {
     Arc limb;
     limb.hub = {hub_at(start), graph_.add_hub(way.back())};
+    hub_component_.resize(graph_.hub_position.size(), component);
     limb.points = way;
     const Index added = graph_.arc_count();
     graph_.arcs.push_back(std::move(limb));
@@ -167,7 +192,7 @@ class LimbCompletion {
     const std::vector<double> before = outside_;
     cover(balls);
     for (std::size_t v = 0; v < outside_.size(); ++v)
-      if (before[v] > 0 && outside_[v] < before[v]) {
+      if (surface_.component[v] == component && before[v] > 0 && outside_[v] < before[v]) {
         graph_.arc_of_vertex[v] = added;
         graph_.hub_of_vertex[v] = kNone;
       }
@@ -179,6 +204,7 @@ class LimbCompletion {
   const VertexSlices& slices_;
   const PruningOptions& options_;
   double step_;
+  std::vector<Index> hub_component_;
   std::vector<double> outside_;  // per vertex: distance beyond all balls, at most 0 where done with
   std::unique_ptr<InnerGraph> inner_;
 };
