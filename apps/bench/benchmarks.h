@@ -3,7 +3,8 @@
 
 namespace mspskel::bench {
 
-void register_mesh_benchmarks();   // reading, building, snapshot
-void register_slice_benchmarks();  // MSP, slice error, cone refinement
+void register_mesh_benchmarks();      // reading, building, snapshot
+void register_slice_benchmarks();     // MSP by sampling and by search, slice error, cone refinement
+void register_pipeline_benchmarks();  // both modes, with the seconds of every stage
 
 }  // namespace mspskel::bench

@@ -3,6 +3,7 @@
 #include "benchmarks.h"
 #include "models.h"
 #include "mspskel/slice/cone_refinement.h"
+#include "mspskel/slice/plane_search.h"
 #include "mspskel/slice/slice_error.h"
 
 namespace mspskel::bench {
@@ -25,6 +26,14 @@ void sampled_slices(benchmark::State& state, const SurfaceSnapshot& surface) {
   VertexSlices slices;
   for (auto _ : state)
     slices = compute_minimum_slice_perimeters(tracer, SamplingOptions{}, Execution{kThreads, {}});
+  count_work(state, surface, slices.slices, slices.steps);
+}
+
+void searched_slices(benchmark::State& state, const SurfaceSnapshot& surface) {
+  const SliceTracer tracer(surface);
+  VertexSlices slices;
+  for (auto _ : state)
+    slices = search_minimum_slice_perimeters(tracer, SearchOptions{}, Execution{kThreads, {}});
   count_work(state, surface, slices.slices, slices.steps);
 }
 
@@ -62,6 +71,7 @@ void register_slice_benchmarks() {
       })->Unit(benchmark::kMillisecond);
     };
     add("MSP by sampling/", sampled_slices);
+    add("MSP by search/", searched_slices);
     add("slice error/", slice_error);
     add("cone refinement/", cone_refinement);
   }
