@@ -10,6 +10,10 @@ namespace detail {
 // The collapse saw no limb here, so the evidence has to be better than for an arc that it made.
 inline constexpr double kCaution = 1.25;
 
+// The rim of a tube's flat end lies up to 0.62 radii outside the balls on its axis, a cube's corner 0.73
+// outside the ball in it; neither is a limb.
+inline constexpr double kCorner = 0.75;
+
 // A point of the graph: a hub, or an inner point of an arc.
 struct GraphPoint {
   Index hub = kNone, arc = kNone;
@@ -142,6 +146,7 @@ class LimbCompletion {
     center_arcs(alone, solid_, few, one_thread);
     way = alone.arcs[0].points;
     const Ball ball{way.front(), solid_.distance(way.front())};
+    if (outside_[v] < kCorner * ball.radius) return false;
     if (significance(way, ball, outside_[v]) < kCaution * options_.significance) return false;
     if (solid_.segment_crosses(start.position, way.front())) return false;
     way.insert(way.begin(), start.position);
