@@ -1,23 +1,13 @@
 #include "study.h"
 
 #include <algorithm>
-#include <chrono>
 #include <numeric>
 
 #include "baseline.h"
+#include "mspskel/base/stopwatch.h"
 
 namespace mspskel::experiments {
 namespace {
-
-class Stopwatch {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 void run_planes(const SliceTracer& tracer, const Execution& execution, Study& study) {
   for (const int planes : kPlanes) {

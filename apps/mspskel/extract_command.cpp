@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <cstring>
 #include <filesystem>
 
@@ -11,6 +10,7 @@
 #include "commands.h"
 #include "extract_settings.h"
 #include "mspskel/base/error.h"
+#include "mspskel/base/stopwatch.h"
 #include "mspskel/io/atomic_file.h"
 #include "mspskel/io/read_mesh.h"
 #include "mspskel/io/write_skeleton.h"
@@ -20,16 +20,6 @@
 
 namespace mspskel::cli {
 namespace {
-
-class Stopwatch {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 // A file can be made there, or the folder can, as far as one can tell beforehand.
 void check_writable(const std::filesystem::path& path) {

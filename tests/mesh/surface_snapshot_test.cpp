@@ -28,7 +28,8 @@ TEST_CASE("the snapshot of a tetrahedron is a closed half-edge structure") {
     CHECK(s.origin[s.twin[h]] == s.target(h));
     CHECK(s.next(s.next(s.next(h))) == h);
   }
-  const double area = std::accumulate(s.vertex_area.begin(), s.vertex_area.end(), 0.0) * s.frame.scale * s.frame.scale;
+  const double area =
+      std::accumulate(s.vertex_area.begin(), s.vertex_area.end(), 0.0) * s.frame.scale * s.frame.scale;
   CHECK(area == Approx(1.5 + std::sqrt(3.0) / 2));
   for (Index v = 0; v < 4; ++v) CHECK(s.normal[v].dot(s.position[v]) > 0);
 }

@@ -76,7 +76,8 @@ inline double raw_slice_error(const SurfaceSnapshot& surface, const VertexSlices
 
 }  // namespace detail
 
-// Fills slices.error and slices.area of every vertex with a slice. Cost: one trace a vertex. Throws Cancelled.
+// Fills slices.error and slices.area of every vertex with a slice. Cost: one trace a vertex. Throws
+// Cancelled.
 inline void compute_slice_errors(const SliceTracer& tracer, const SliceErrorOptions& options,
                                  VertexSlices& slices, const Execution& execution = {}) {
   const SurfaceSnapshot& surface = tracer.surface();
