@@ -65,7 +65,7 @@ std::vector<std::array<Index, 2>> topology(const SurfaceSnapshot& s) {
 // Every coarse vertex stands for a connected, non-empty set of input vertices of its own component.
 void check_partition(const SurfaceSnapshot& s, const CoarseSurface& c) {
   REQUIRE(c.coarse_vertex.size() == s.position.size());
-  std::vector<Index> patches(c.surface.position.size(), 0), stack;
+  std::vector<Index> patches(c.surface.position.size(), 0), stack, component(s.component_count, kNone);
   std::vector<char> seen(s.position.size(), 0);
   bool fits = true;
   for (Index seed = 0; seed < s.vertex_count(); ++seed) {
@@ -75,7 +75,9 @@ void check_partition(const SurfaceSnapshot& s, const CoarseSurface& c) {
       continue;
     }
     REQUIRE((to >= 0 && to < c.surface.vertex_count()));
-    fits = fits && c.surface.component[to] == s.component[seed];
+    Index& into = component[s.component[seed]];
+    if (into == kNone) into = c.surface.component[to];
+    fits = fits && into == c.surface.component[to];
     if (seen[seed]) continue;
     ++patches[to];
     seen[seed] = 1;
@@ -92,6 +94,8 @@ void check_partition(const SurfaceSnapshot& s, const CoarseSurface& c) {
     }
   }
   CHECK(fits);
+  std::sort(component.begin(), component.end());
+  CHECK(std::adjacent_find(component.begin(), component.end()) == component.end());
   CHECK(std::count(patches.begin(), patches.end(), 1) == c.surface.vertex_count());
 }
 
@@ -100,7 +104,9 @@ void check_faithful(const SurfaceSnapshot& s, const CoarseSurface& c) {
   check_partition(s, c);
   const auto before = topology(s), after = topology(c.surface);
   REQUIRE(before.size() == after.size());
-  for (std::size_t i = 0; i < before.size(); ++i) CHECK(before[i][1] == after[i][1]);
+  for (Index v = 0; v < s.vertex_count(); ++v)
+    if (s.component[v] != kNone)
+      REQUIRE(before[s.component[v]][1] == after[c.surface.component[c.coarse_vertex[v]]][1]);
   CHECK(c.surface.frame.scale == s.frame.scale);
   CHECK(c.surface.frame.origin == s.frame.origin);
 }
@@ -140,11 +146,12 @@ TEST_CASE("no component is thinned below its least number of vertices") {
   const SurfaceSnapshot s = make_snapshot(test::to_mesh(soup));
   const CoarseSurface c = coarsen_surface(s, thinned_to(150));
   check_faithful(s, c);
-  const auto counts = topology(c.surface);
+  auto counts = topology(c.surface);
+  std::sort(counts.begin(), counts.end());
   REQUIRE(counts.size() == 3);
-  CHECK(counts[0][0] >= 50);
+  CHECK(counts[0][0] == 6);
   CHECK(counts[1][0] >= 50);
-  CHECK(counts[2][0] == 6);
+  CHECK(counts[2][0] >= 50);
 }
 
 TEST_CASE("a thin limb keeps its cross-section") {
@@ -169,27 +176,45 @@ TEST_CASE("the same input gives the same output") {
   CHECK(a.coarse_vertex == b.coarse_vertex);
 }
 
-TEST_CASE("motion, scale and numbering change next to nothing") {
-  const DefaultMesh mesh = test::jittered(test::y_tube(3000), 5, 0.2);
-  const SurfaceSnapshot s = make_snapshot(mesh);
-  const CoarseSurface c = coarsen_surface(s, thinned_to(600));
-  const double mean_edge = std::sqrt(area(c.surface) / c.surface.vertex_count());
-  const DefaultMesh changed[] = {
-      test::rotated(mesh, Vector3(1, 2, 3).normalized(), 0.7),
-      test::scaled(mesh, 1e3),
-      test::translated(mesh, {5, -7, 2}),
-      test::renumbered(mesh, 3),
+// Same numbering, same shape up to rounding.
+void check_congruent(const SurfaceSnapshot& a, const SurfaceSnapshot& b) {
+  REQUIRE(a.origin == b.origin);
+  CHECK(a.twin == b.twin);
+  double difference = 0;
+  for (Index h = 0; h < a.halfedge_count(); ++h) {
+    const auto length = [h](const SurfaceSnapshot& s) {
+      return (s.position[s.target(h)] - s.position[s.origin[h]]).norm();
+    };
+    difference = std::max(difference, std::abs(length(a) - length(b)));
+    difference =
+        std::max(difference, std::abs(a.position[a.origin[h]].norm() - b.position[b.origin[h]].norm()));
+  }
+  CHECK(difference < 1e-9);
+}
+
+TEST_CASE("motion, scale and numbering leave the result as it is") {
+  // A horn: bent and tapering, regular, its left the mirror image of its right, so costs are equal by the
+  // dozen.
+  const auto bent = [](double along, double r, double round) {
+    const double out = 1.5 + r * std::cos(round);
+    return Vector3(out * std::cos(along), out * std::sin(along), r * std::sin(round));
   };
-  for (const DefaultMesh& other : changed) {
-    const SurfaceSnapshot t = make_snapshot(other);
-    const CoarseSurface d = coarsen_surface(t, thinned_to(600));
-    CHECK(d.surface.vertex_count() == c.surface.vertex_count());
-    CHECK(volume(d.surface) == Approx(volume(c.surface)).epsilon(0.003));
-    CHECK(area(d.surface) == Approx(area(c.surface)).epsilon(0.003));
-    const BoundingVolumeHierarchy surface(t);
-    double farthest = 0;
-    for (const Vector3& p : d.surface.position) farthest = std::max(farthest, surface.distance(p));
-    CHECK(farthest < 0.5 * mean_edge);
+  const auto at = [&](Index ring, Index i) {
+    return bent(2.0 * ring / 79, 0.3 - 0.1 * ring / 79, 2 * kPi * i / 24);
+  };
+  const DefaultMesh horn = test::stacked_rings(24, 80, at, bent(0, 0, 0), bent(2, 0, 0));
+  const DefaultMesh irregular = test::jittered(test::y_tube(3000), 5, 0.2);
+  for (const DefaultMesh* given : {&horn, &irregular}) {
+    const DefaultMesh& mesh = *given;
+    const CoarseSurface c = coarsen_surface(make_snapshot(mesh), thinned_to(600));
+    const DefaultMesh changed[] = {
+        test::rotated(mesh, Vector3(1, 2, 3).normalized(), 0.7),
+        test::scaled(mesh, 1e3),
+        test::translated(mesh, {5, -7, 2}),
+        test::renumbered(mesh, 3),
+    };
+    for (const DefaultMesh& other : changed)
+      check_congruent(c.surface, coarsen_surface(make_snapshot(other), thinned_to(600)).surface);
   }
 }
 
@@ -208,9 +233,13 @@ TEST_CASE("meshes that cannot or need not be thinned are unchanged") {
     for (const CoarseningOptions& options : {least, CoarseningOptions()}) {
       const CoarseSurface c = coarsen_surface(s, options);
       CHECK(c.collapses == 0);
-      CHECK(c.surface.origin == s.origin);
-      CHECK(c.surface.position == s.position);
-      CHECK(c.surface.normal == s.normal);
+      const auto sorted = [](std::vector<Vector3> points) {
+        std::sort(points.begin(), points.end(), [](const Vector3& p, const Vector3& q) {
+          return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
+        });
+        return points;
+      };
+      CHECK(sorted(c.surface.position) == sorted(s.position));
       check_faithful(s, c);
     }
   }

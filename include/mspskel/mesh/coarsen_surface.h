@@ -46,9 +46,11 @@ struct CoarseSurface {
 // earlier collapse of the pass has moved; this replaces a heap at a fraction of its cost.
 //
 // The surface stays closed and manifold, component by component of the same genus (link condition: Dey,
-// Edelsbrunner, Guha and Nekhayev 1999). Each class of merged vertices is connected on the input. Vertices
-// keep their order; isolated ones are left out. With no more vertices than asked for, this is a copy.
-// Sheets that lie closer together than the error may come to cross: nothing guards against it.
+// Edelsbrunner, Guha and Nekhayev 1999). Each class of merged vertices is connected on the input. Isolated
+// vertices are left out. Vertices and faces are numbered by place in a frame that turns with the surface: a
+// surface that is moved, scaled or stored in another order gives the same result up to rounding. With no more
+// vertices than asked for, this is a copy. Sheets that lie closer together than the error may come to cross:
+// nothing guards against it.
 //
 // O(faces · log(faces / vertices)). Throws UsageError, Cancelled.
 inline CoarseSurface coarsen_surface(const SurfaceSnapshot& input, const CoarseningOptions& options = {},

@@ -26,7 +26,8 @@ inline VertexFrame make_vertex_frame(const SurfaceSnapshot& surface, Index p) {
   Index h = first;
   do {
     const Vector3 edge = surface.position[surface.target(h)] - surface.position[p];
-    if (edge.squaredNorm() > best) {
+    // Of edges equal up to rounding the first: the one that does not depend on how the surface lies.
+    if (edge.squaredNorm() > best * (1 + 1e-9)) {
       best = edge.squaredNorm();
       longest = edge;
     }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mspskel/mesh/coarsen_surface.h"
+#include "mspskel/mesh/detail/moment_frame.h"
 #include "mspskel/mesh/detail/quadric.h"
 
 namespace mspskel {
@@ -58,9 +59,12 @@ class CollapsingSurface {
   double sharpest(Index h, const MergedRing& ring) const;
   double worst_shape(Index h, const MergedRing& ring) const;
   void remove_face(Index h);
+  void renumber();
 
   CoarseningOptions options_;
   double cos_turn_, cos_dihedral_;
+  Eigen::Matrix3d frame_;
+  TieBreaker ties_;
   Index live_vertices_ = 0, live_faces_ = 0;
   // per vertex
   std::vector<Vector3> position_;
@@ -79,6 +83,8 @@ inline CollapsingSurface::CollapsingSurface(const SurfaceSnapshot& input, const 
     : options_(options),
       cos_turn_(std::cos(options.most_turn * kPi / 180)),
       cos_dihedral_(std::cos(options.most_dihedral * kPi / 180)),
+      frame_(moment_frame(input)),
+      ties_(frame_),
       live_faces_(input.face_count()),
       position_(input.position),
       quadric_(input.position.size()),
@@ -120,8 +126,9 @@ inline double CollapsingSurface::evaluate(Index h) const {
   const Index a = origin_[h], b = origin_[next(h)];
   Quadric q = quadric_[a];
   q += quadric_[b];
-  const double error = q(q.least_point(0.5 * (position_[a] + position_[b])));
-  return std::max(error, 0.0);  // rounding
+  const Vector3 middle = 0.5 * (position_[a] + position_[b]);
+  const double error = q(q.least_point(middle));
+  return std::max(error, 0.0) * ties_.factor(middle);  // below zero by rounding only
 }
 
 inline void CollapsingSurface::gather(Index h, MergedRing& ring) const {
@@ -207,7 +214,8 @@ inline bool CollapsingSurface::permits_shape(Index h, const MergedRing& ring, co
   crease = std::min(crease, normal[0].dot(normal[ring.size - 1]));
   // The allowance lets straight creases be thinned despite rounding.
   if (crease < cos_dihedral_ && crease < sharpest(h, ring) - 1e-3) return false;
-  return shape >= options_.least_shape || shape >= worst_shape(h, ring);
+  // Here it keeps regular meshes, where shapes before and after are equal, from following the rounding.
+  return shape >= options_.least_shape || shape >= worst_shape(h, ring) - 1e-6;
 }
 
 // Glues the two neighbours of h's face that lie across its other edges.
@@ -299,8 +307,44 @@ inline void CollapsingSurface::compact() {
   cost_.resize(3 * faces);
 }
 
+// Numbers vertices by place, and faces and their half-edges by their vertices, so that nothing that walks on
+// the surface can depend on how the input was stored, and walks stay within few cache lines.
+inline void CollapsingSurface::renumber() {
+  const std::vector<Index> order = spatial_order(position_, frame_);
+  const Index vertices = static_cast<Index>(order.size()), halfedges = halfedge_count();
+  std::vector<Index> rank(order.size());
+  std::vector<Vector3> position(order.size());
+  for (Index k = 0; k < vertices; ++k) {
+    rank[order[k]] = k;
+    position[k] = position_[order[k]];
+  }
+  position_ = std::move(position);
+  for (Index& v : current_)
+    if (v != kNone) v = rank[v];
+  for (Index& v : origin_) v = rank[v];
+
+  std::vector<Index> first;  // each face's half-edge at its smallest vertex
+  first.reserve(static_cast<std::size_t>(halfedges / 3));
+  for (Index h = 0; h < halfedges; ++h)
+    if (origin_[h] < origin_[next(h)] && origin_[h] < origin_[prev(h)]) first.push_back(h);
+  std::sort(first.begin(), first.end(), [&](Index g, Index h) {
+    return std::pair(origin_[g], origin_[next(g)]) < std::pair(origin_[h], origin_[next(h)]);
+  });
+  std::vector<Index> place(origin_.size()), origin(origin_.size()), twin(origin_.size());
+  Index to = 0;
+  for (const Index h : first)
+    for (const Index g : {h, next(h), prev(h)}) place[g] = to++;
+  for (Index h = 0; h < halfedges; ++h) {
+    origin[place[h]] = origin_[h];
+    twin[place[h]] = place[twin_[h]];
+  }
+  origin_ = std::move(origin);
+  twin_ = std::move(twin);
+}
+
 inline void CollapsingSurface::finish(CoarseSurface& result) {
   compact();
+  renumber();
   result.surface.position = std::move(position_);
   result.surface.origin = std::move(origin_);
   result.surface.twin = std::move(twin_);

@@ -161,8 +161,8 @@ class PlaneSearch {
 
 inline bool is_seed(const SurfaceSnapshot& surface, Index v) {
   bool seed = true;
-  for_each_neighbour(surface, v,
-                     [&](Index w) { seed = seed && surface.vertex_area[w] <= surface.vertex_area[v]; });
+  const double most = (1 + 1e-9) * surface.vertex_area[v];  // on regular meshes equals differ by rounding
+  for_each_neighbour(surface, v, [&](Index w) { seed = seed && surface.vertex_area[w] <= most; });
   return seed;
 }
 
