@@ -14,7 +14,7 @@ namespace mspskel {
 struct CenteringOptions {
   double step = 0.008;        // distance of arc points, share of the model's extent; 0.0005 to 0.5
   int rounds = 6;             // rounds of sections and solve, 0 to 100
-  int rays = 24;              // rays a cross-section, 4 to 256
+  int rays = 16;              // rays a cross-section, 4 to 256
   int tangent_smoothing = 3;  // rounds of neighbour averages before tangents are taken, 0 to 100
   // Weight of |x − mean of neighbours|² against |x − centre|² where the solid is as thick as the step is
   // long; it grows with the square of the thickness, so thin limbs are followed and thick parts get straight
@@ -39,13 +39,16 @@ struct VisibleSection {
   Vector3 centre = Vector3::Zero();  // where rays in opposite directions balance (to first order)
   double radius = 0.0;               // of the disc of equal area
   double roundness = 0.0;            // 4π·area / perimeter², 1 for a disc
-  double clearance = 0.0;            // distance to the surface
+  double clearance = 0.0;            // the shortest ray
   bool closed = false;               // every ray met the surface
 };
 
 // Rays leave x evenly in the plane across the unit vector `tangent`. With lengths r_i and directions d_i the
-// centre is x + 2 mean(r_i d_i): a Newton step towards Σ r_i d_i = 0, exact for a disc. Cost: `rays` ray
-// queries.
+// centre is x + 2 mean(r_i d_i): a Newton step towards Σ r_i d_i = 0, exact for a disc. The first ray goes
+// along the unit vector `first` across the tangent, or, without one, towards the nearest surface point. Cost:
+// `rays` ray queries.
+VisibleSection visible_section(const BoundingVolumeHierarchy& solid, const Vector3& x, const Vector3& tangent,
+                               const Vector3& first, int rays);
 VisibleSection visible_section(const BoundingVolumeHierarchy& solid, const Vector3& x, const Vector3& tangent,
                                int rays);
 

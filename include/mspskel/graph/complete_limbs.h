@@ -16,6 +16,10 @@ namespace mspskel {
 // arc tried; at most 200 are tried.
 Index complete_limbs(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
                      const VertexSlices& slices, const PruningOptions& options, double step);
+// With the paths of `inner`, which is of the same surface and solid.
+Index complete_limbs(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
+                     const VertexSlices& slices, const PruningOptions& options, double step,
+                     detail::InnerGraph& inner);
 
 }  // namespace mspskel
 

@@ -58,6 +58,7 @@ class ArcRefinement {
         options_(options),
         execution_(execution),
         type_(homotopy_type(graph)),
+        inner_(surface, solid, execution),
         draft_(options.centering) {
     // Until the graph's shape is settled a coarser line will do.
     draft_.rounds = (options.centering.rounds + 2) / 3;
@@ -94,7 +95,7 @@ class ArcRefinement {
   }
 
   void route() {
-    counts_.routing = route_inside(graph_, surface_, solid_);
+    counts_.routing = route_inside(graph_, surface_, solid_, inner_);
     keep_type("routing inside");
   }
   void aim() {
@@ -121,7 +122,7 @@ class ArcRefinement {
   }
   void complete() {
     counts_.completed =
-        complete_limbs(graph_, surface_, solid_, slices_, options_.pruning, options_.centering.step);
+        complete_limbs(graph_, surface_, solid_, slices_, options_.pruning, options_.centering.step, inner_);
     keep_type("completion of limbs");
   }
   void extend() {
@@ -142,6 +143,7 @@ class ArcRefinement {
   const RefinementOptions& options_;
   const Execution& execution_;
   const ArcGraphType type_;
+  InnerGraph inner_;
   CenteringOptions draft_;
   RefinementCounts counts_;
 };

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "mspskel/graph/arc_graph.h"
+#include "mspskel/graph/detail/inner_graph.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/mesh/surface_snapshot.h"
 
@@ -21,6 +22,9 @@ struct RoutingResult {
 // stretch.
 RoutingResult route_inside(ArcGraph& graph, const SurfaceSnapshot& surface,
                            const BoundingVolumeHierarchy& solid);
+// With the paths of `inner`, which is of the same surface and solid.
+RoutingResult route_inside(ArcGraph& graph, const SurfaceSnapshot& surface,
+                           const BoundingVolumeHierarchy& solid, detail::InnerGraph& inner);
 
 }  // namespace mspskel
 

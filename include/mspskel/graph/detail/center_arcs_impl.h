@@ -49,6 +49,14 @@ struct ArcPoints {
   Index count() const { return static_cast<Index>(x.size()); }
 };
 
+// The unit vector across a unit tangent that points most nearly to the nearest surface point.
+inline Vector3 direction_to_surface(const BoundingVolumeHierarchy& solid, const Vector3& x,
+                                    const Vector3& tangent) {
+  Vector3 u = solid.closest(x).point - x;
+  u -= u.dot(tangent) * tangent;
+  return u.norm() < 1e-12 ? tangent.unitOrthogonal() : u.normalized();
+}
+
 // Unit tangents of inner points and leaf ends from a smoothed copy of the chains; zero elsewhere. Without the
 // smoothing the sections of a zigzag tilt with it, and centring makes it worse.
 inline std::vector<Vector3> smooth_tangents(const ArcPoints& points, int smoothing) {
@@ -69,6 +77,24 @@ inline std::vector<Vector3> smooth_tangents(const ArcPoints& points, int smoothi
     }
   }
   return tangent;
+}
+
+// For every tangent a unit vector across it where the section's first ray goes. Along a chain it turns as
+// little as the tangents let it; it begins towards the nearest surface, so all rays turn with the model.
+inline std::vector<Vector3> first_rays(const ArcPoints& points, const std::vector<Vector3>& tangent,
+                                       const BoundingVolumeHierarchy& solid) {
+  std::vector<Vector3> ray(points.x.size(), Vector3::Zero());
+  for (const auto& chain : points.chains) {
+    Vector3 last = Vector3::Zero();
+    for (const Index i : chain) {
+      if (tangent[i].isZero()) continue;
+      last -= last.dot(tangent[i]) * tangent[i];
+      if (last.norm() < 0.1) last = direction_to_surface(solid, points.x[i], tangent[i]);
+      last.normalize();
+      ray[i] = last;
+    }
+  }
+  return ray;
 }
 
 // The arc at even steps; where a step would cut a corner through the surface, the corner stays between.
@@ -122,9 +148,27 @@ struct Pull {
   double stiffness = 1.0;
 };
 
+// Inner points between two others of their chain whose sections a round leaves out, every second one; they
+// take turns, so that all are seen.
+inline std::vector<std::uint8_t> left_out(const ArcPoints& points, int round) {
+  std::vector<std::uint8_t> out(points.x.size(), 0);
+  for (const auto& chain : points.chains)
+    for (std::size_t i = 2 + static_cast<std::size_t>(round % 2); i + 2 < chain.size(); i += 2)
+      out[chain[i]] = 1;
+  return out;
+}
+
+// The pull of a point without a section of its own: the mean of its neighbours'.
+inline Pull pull_between(const ArcPoints& points, const std::vector<Pull>& pulls, Index i) {
+  const Index a = points.next[i][0], b = points.next[i][1];
+  const Vector3 move = 0.5 * (pulls[a].goal - points.x[a] + pulls[b].goal - points.x[b]);
+  return {points.x[i] + move, 0.5 * (pulls[a].weight + pulls[b].weight),
+          0.5 * (pulls[a].stiffness + pulls[b].stiffness)};
+}
+
 inline Pull section_pull(const BoundingVolumeHierarchy& solid, const Vector3& x, const Vector3& tangent,
-                         const CenteringOptions& options) {
-  const VisibleSection section = visible_section(solid, x, tangent, options.rays);
+                         const Vector3& start, const CenteringOptions& options) {
+  const VisibleSection section = visible_section(solid, x, tangent, start, options.rays);
   if (!section.closed || section.radius <= 0) return {x, 1e-3, 1.0};
   const double move = (section.centre - x).norm() / (0.7 * section.radius);
   // A second difference grows with the square of the step; the reference makes the curve independent of it.
@@ -172,17 +216,16 @@ inline std::vector<Vector3> solve_positions(const ArcPoints& points, const std::
 
 inline VisibleSection visible_section(const BoundingVolumeHierarchy& solid, const Vector3& x,
                                       const Vector3& tangent, int rays) {
-  // The rays start at the nearest surface point's direction, so they turn with the model.
-  Vector3 u = solid.closest(x).point - x;
-  const double clearance = u.norm();
-  u -= u.dot(tangent) * tangent;
-  if (u.norm() < 1e-12) u = tangent.unitOrthogonal();
-  u.normalize();
+  return visible_section(solid, x, tangent, detail::direction_to_surface(solid, x, tangent), rays);
+}
+
+inline VisibleSection visible_section(const BoundingVolumeHierarchy& solid, const Vector3& x,
+                                      const Vector3& tangent, const Vector3& u, int rays) {
   const Vector3 w = tangent.cross(u);
   std::array<double, 256> r;
   solid.ray_fan(x, u, w, rays, r.data());
   VisibleSection section;
-  section.clearance = clearance;
+  section.clearance = *std::min_element(r.begin(), r.begin() + rays);
   double area = 0, perimeter = 0, sum_u = 0, sum_w = 0;
   for (int i = 0; i < rays; ++i) {
     if (!std::isfinite(r[i])) return section;
@@ -211,16 +254,21 @@ inline void center_arcs(ArcGraph& graph, const BoundingVolumeHierarchy& solid,
     if (round > 0) resample();
     detail::ArcPoints points(graph);
     const auto tangent = detail::smooth_tangents(points, options.tangent_smoothing);
+    const auto first_ray = detail::first_rays(points, tangent, solid);
+    const auto left_out = detail::left_out(points, round);
     std::vector<detail::Pull> pulls(points.x.size());
     parallel_for(
         points.count(), "centring", execution, [] { return 0; },
         [&](Index i, int) {
           using Kind = detail::ArcPoints::Kind;
           pulls[i] = {points.x[i], 1e-3, 1.0};
-          if (points.kind[i] == Kind::kDead || points.kind[i] == Kind::kJoint) return;
-          if (!tangent[i].isZero()) pulls[i] = detail::section_pull(solid, points.x[i], tangent[i], options);
+          if (points.kind[i] == Kind::kDead || points.kind[i] == Kind::kJoint || left_out[i]) return;
+          if (!tangent[i].isZero())
+            pulls[i] = detail::section_pull(solid, points.x[i], tangent[i], first_ray[i], options);
           if (points.kind[i] == Kind::kLeaf) pulls[i].weight = 0.5;
         });
+    for (Index i = 0; i < points.count(); ++i)
+      if (left_out[i]) pulls[i] = detail::pull_between(points, pulls, i);
     const auto solution = detail::solve_positions(points, pulls, options.smoothness);
     std::vector<Vector3> goal(points.x);
     for (Index i = 0; i < points.count(); ++i)

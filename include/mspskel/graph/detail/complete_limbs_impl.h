@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <memory>
 
 namespace mspskel {
 namespace detail {
@@ -24,8 +23,14 @@ struct GraphPoint {
 class LimbCompletion {
  public:
   LimbCompletion(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
-                 const VertexSlices& slices, const PruningOptions& options, double step)
-      : graph_(graph), surface_(surface), solid_(solid), slices_(slices), options_(options), step_(step) {
+                 const VertexSlices& slices, const PruningOptions& options, double step, InnerGraph& inner)
+      : graph_(graph),
+        surface_(surface),
+        solid_(solid),
+        slices_(slices),
+        options_(options),
+        step_(step),
+        inner_(inner) {
     const ArcBalls balls(graph, solid);
     outside_.assign(surface.position.size(), std::numeric_limits<double>::infinity());
     for (Index h = 0; h < graph.hub_count(); ++h)
@@ -89,8 +94,8 @@ class LimbCompletion {
     }
   }
 
-  // Points of the graph's pieces in one component of the surface, by their distance to x.
-  std::vector<std::pair<double, GraphPoint>> points_by_distance(const Vector3& x, Index component) const {
+  // The points nearest to x of the graph's pieces in one component of the surface, by their distance.
+  std::vector<std::pair<double, GraphPoint>> nearest_points(const Vector3& x, Index component) const {
     std::vector<std::pair<double, GraphPoint>> all;
     for (Index h = 0; h < graph_.hub_count(); ++h)
       if (graph_.hub_alive[h] && hub_component_[h] == component)
@@ -99,29 +104,34 @@ class LimbCompletion {
       if (graph_.arcs[a].alive && hub_component_[graph_.arcs[a].hub[0]] == component)
         for (std::size_t i = 1; i + 1 < graph_.arcs[a].points.size(); ++i)
           all.push_back({(graph_.arcs[a].points[i] - x).norm(), {kNone, a, i, graph_.arcs[a].points[i]}});
-    std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    constexpr std::size_t kSeen = 64;
+    const auto end = all.begin() + static_cast<std::ptrdiff_t>(std::min(kSeen, all.size()));
+    std::partial_sort(all.begin(), end, all.end(),
+                      [](const auto& a, const auto& b) { return a.first < b.first; });
+    all.erase(end, all.end());
     return all;
   }
 
   // The way from the skeleton to v: straight from the nearest point that sees v, or through the solid.
   bool find_way(Index v, GraphPoint& start, std::vector<Vector3>& way) {
-    constexpr std::size_t kSeen = 64;
     const Vector3& target = surface_.position[v];
-    const auto points = points_by_distance(target, surface_.component[v]);
-    for (std::size_t i = 0; i < std::min(kSeen, points.size()); ++i) {
-      const Vector3& x = points[i].second.position;
+    const auto points = nearest_points(target, surface_.component[v]);
+    // Centring seldom halves the ball, so what lies that close to it is not worth a way.
+    if (points.empty() || outside_[v] < 0.5 * kCorner * solid_.distance(points.front().second.position))
+      return false;
+    for (const auto& [distance, point] : points) {
+      const Vector3& x = point.position;
       if (solid_.segment_crosses(x, x + 0.98 * (target - x))) continue;
-      start = points[i].second;
+      start = point;
       way.assign(1, x);
       lead_towards(way, target, solid_, step_);
       return way.size() > 2;
     }
-    if (points.empty()) return false;
-    if (!inner_) inner_ = std::make_unique<InnerGraph>(surface_, solid_);
-    if (!inner_->usable(v)) return false;
+    inner_.prepare();
+    if (!inner_.usable(v)) return false;
     start = points.front().second;
     std::vector<Vector3> between;
-    if (!inner_->path(start.position, inner_->point(v), between)) return false;
+    if (!inner_.path(start.position, inner_.point(v), between)) return false;
     way.assign(1, start.position);
     way.insert(way.end(), between.begin(), between.end());
     lead_towards(way, target, solid_, step_);
@@ -209,18 +219,24 @@ class LimbCompletion {
   const VertexSlices& slices_;
   const PruningOptions& options_;
   double step_;
+  InnerGraph& inner_;
   std::vector<Index> hub_component_;
   std::vector<double> outside_;  // per vertex: distance beyond all balls, at most 0 where done with
-  std::unique_ptr<InnerGraph> inner_;
 };
 
 }  // namespace detail
 
 inline Index complete_limbs(ArcGraph& graph, const SurfaceSnapshot& surface,
                             const BoundingVolumeHierarchy& solid, const VertexSlices& slices,
+                            const PruningOptions& options, double step, detail::InnerGraph& inner) {
+  return detail::LimbCompletion(graph, surface, solid, slices, options, step, inner).run();
+}
+
+inline Index complete_limbs(ArcGraph& graph, const SurfaceSnapshot& surface,
+                            const BoundingVolumeHierarchy& solid, const VertexSlices& slices,
                             const PruningOptions& options, double step) {
-  const Index added = detail::LimbCompletion(graph, surface, solid, slices, options, step).run();
-  return added;
+  detail::InnerGraph inner(surface, solid);
+  return complete_limbs(graph, surface, solid, slices, options, step, inner);
 }
 
 }  // namespace mspskel

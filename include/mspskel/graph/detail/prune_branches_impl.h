@@ -113,12 +113,17 @@ inline std::array<double, 2> section_size(const BoundingVolumeHierarchy& solid, 
   return {slice_half_width(perimeter, area), perimeter};
 }
 
-// Medians over the points of an arc outside the joint's ball.
+// Medians over at most 15 points of an arc outside the joint's ball.
 inline std::array<double, 2> arc_sections(const Arc& arc, const Ball& joint,
                                           const BoundingVolumeHierarchy& solid) {
+  constexpr std::size_t kMost = 15;
+  std::vector<std::size_t> outside;
+  for (std::size_t i = 1; i + 1 < arc.points.size(); ++i)
+    if ((arc.points[i] - joint.centre).norm() >= joint.radius) outside.push_back(i);
   std::vector<double> widths, perimeters;
-  for (std::size_t i = 1; i + 1 < arc.points.size(); ++i) {
-    if ((arc.points[i] - joint.centre).norm() < joint.radius) continue;
+  const std::size_t count = std::min(kMost, outside.size());
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t i = outside[(2 * k + 1) * outside.size() / (2 * count)];
     const auto [width, perimeter] = section_size(solid, arc.points[i], arc.points[i + 1] - arc.points[i - 1]);
     if (perimeter == 0) continue;
     widths.push_back(width);

@@ -19,9 +19,33 @@ struct CommonWay {
   std::vector<Vector3> stem;  // middles of the two arcs' points, from the joint
 };
 
+// Distances to the surface of the arcs' points, each computed when it is first asked for.
+class ArcRadii {
+ public:
+  ArcRadii(const ArcGraph& graph, const BoundingVolumeHierarchy& solid) : graph_(graph), solid_(solid) {
+    for (const Arc& arc : graph.arcs) radius_.emplace_back(arc.alive ? arc.points.size() : 0, kUnknown);
+  }
+  // Of the point at `place` from one end of the arc.
+  double at(const ArcEnd& from, std::size_t place) {
+    const std::vector<Vector3>& points = graph_.arcs[from.arc].points;
+    const std::size_t i = from.end == 0 ? place : points.size() - 1 - place;
+    double& radius = radius_[from.arc][i];
+    if (radius == kUnknown) radius = solid_.distance(points[i]);
+    return radius;
+  }
+
+ private:
+  static constexpr double kUnknown = -1.0;
+  const ArcGraph& graph_;
+  const BoundingVolumeHierarchy& solid_;
+  std::vector<std::vector<double>> radius_;
+};
+
 // Walks both polylines from their common first point for as long as they are close; both are evenly sampled.
-inline CommonWay common_way(const std::vector<Vector3>& a, const std::vector<Vector3>& b,
-                            const BoundingVolumeHierarchy& solid, double closeness) {
+inline CommonWay common_way(const ArcGraph& graph, const ArcEnd& from_a, const ArcEnd& from_b,
+                            ArcRadii& radii, const BoundingVolumeHierarchy& solid, double closeness) {
+  const std::vector<Vector3> a = points_from(graph.arcs[from_a.arc], from_a.end),
+                             b = points_from(graph.arcs[from_b.arc], from_b.end);
   CommonWay way;
   way.stem.push_back(a.front());
   std::size_t j = 0;
@@ -31,7 +55,7 @@ inline CommonWay common_way(const std::vector<Vector3>& a, const std::vector<Vec
     while (k + 1 < b.size() && (b[k + 1] - a[i]).squaredNorm() < (b[k] - a[i]).squaredNorm()) ++k;
     const double distance = (b[k] - a[i]).norm();
     if (distance > 0) {
-      const double radius = std::min(solid.distance(a[i]), solid.distance(b[k]));
+      const double radius = std::min(radii.at(from_a, i), radii.at(from_b, k));
       if (distance >= closeness * radius) break;
     }
     const Vector3 middle = 0.5 * (a[i] + b[k]);
@@ -102,6 +126,7 @@ inline Index zip_arcs(ArcGraph& graph, const SurfaceSnapshot& surface, const Bou
   Index zips = 0;
   for (Index budget = 4 * graph.arc_count(); budget > 0; --budget) {
     const auto at = graph.incidence();
+    detail::ArcRadii radii(graph, solid);
     detail::Zip best;
     Index leaf_gone = kNone, leaf_joint = kNone;
     for (Index h = 0; h < graph.hub_count() && leaf_gone == kNone; ++h) {
@@ -113,16 +138,16 @@ inline Index zip_arcs(ArcGraph& graph, const SurfaceSnapshot& surface, const Bou
             continue;
           const detail::ArcEnd ea{a, graph.arcs[a].hub[0] == h ? 0 : 1},
               eb{b, graph.arcs[b].hub[0] == h ? 0 : 1};
-          const auto pa = points_from(graph.arcs[a], ea.end), pb = points_from(graph.arcs[b], eb.end);
-          detail::CommonWay way = detail::common_way(pa, pb, solid, options.closeness);
+          detail::CommonWay way = detail::common_way(graph, ea, eb, radii, solid, options.closeness);
+          const std::size_t size_a = graph.arcs[a].points.size(), size_b = graph.arcs[b].points.size();
           const Index tip = graph.arcs[a].hub[1 - ea.end];
-          if (way.first + 1 == pa.size() && at[tip].size() == 1) {
+          if (way.first + 1 == size_a && at[tip].size() == 1) {
             leaf_gone = a;
             leaf_joint = h;
             break;
           }
           // Both must go on behind the parting point, and the way must be worth a joint of its own.
-          if (way.first + 1 >= pa.size() || way.second + 1 >= pb.size() || way.first < 2 || way.second < 2)
+          if (way.first + 1 >= size_a || way.second + 1 >= size_b || way.first < 2 || way.second < 2)
             continue;
           if (way.length > best.way.length) best = {ea, eb, std::move(way)};
         }
