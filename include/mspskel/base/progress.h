@@ -42,11 +42,11 @@ inline int thread_count(const Execution& execution) {
 
 // Calls body(i, state) for i in [0, count), each i once; `state` is one value of make_state() a thread
 // (scratch memory). body may only write what belongs to i, so the result does not depend on the number of
-// threads. The first exception is rethrown. The callback is asked every `grain` items of the calling thread.
+// threads. The first exception is rethrown. Threads take `grain` items at a time; the callback is asked after
+// each such block of the calling thread.
 template <class MakeState, class Body>
-void parallel_for(Index count, const char* stage, const Execution& execution, MakeState make_state,
-                  Body body) {
-  constexpr Index kGrain = 16;
+void parallel_for(Index count, const char* stage, const Execution& execution, MakeState make_state, Body body,
+                  Index grain = 16) {
   std::atomic<bool> stop{false};
   std::exception_ptr failure;
   report_progress(execution.progress, stage, 0.0);
@@ -62,11 +62,11 @@ void parallel_for(Index count, const char* stage, const Execution& execution, Ma
 #else
       const bool reports = true;
 #endif
-      for (Index block = 0; block < (count + kGrain - 1) / kGrain; ++block) {
+      for (Index block = 0; block < (count + grain - 1) / grain; ++block) {
         if (stop.load(std::memory_order_relaxed)) continue;
         try {
-          const Index end = std::min(count, (block + 1) * kGrain);
-          for (Index i = block * kGrain; i < end; ++i) body(i, state);
+          const Index end = std::min(count, (block + 1) * grain);
+          for (Index i = block * grain; i < end; ++i) body(i, state);
           if (reports) report_progress(execution.progress, stage, static_cast<double>(end) / count);
         } catch (...) {
           stop = true;

@@ -12,7 +12,7 @@ namespace mspskel {
 // Arcs whose part is covered, or whose target is out of sight, stay. Returns the number of arcs that changed.
 // Cost: O(vertices on leaf arcs · points near them) and a few queries an arc.
 Index aim_ends(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
-               double step);
+               double step, const Execution& execution = {});
 
 }  // namespace mspskel
 

@@ -19,7 +19,7 @@ Index complete_limbs(ArcGraph& graph, const SurfaceSnapshot& surface, const Boun
 // With the paths of `inner`, which is of the same surface and solid.
 Index complete_limbs(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
                      const VertexSlices& slices, const PruningOptions& options, double step,
-                     detail::InnerGraph& inner);
+                     detail::InnerGraph& inner, const Execution& execution = {});
 
 }  // namespace mspskel
 

@@ -44,7 +44,8 @@ double slice_half_width(double perimeter, double area);
 // surface's vertices. Returns the number of arcs removed. A component keeps at least one arc or hub, loops
 // always stay. Cost: O(leaf arcs · vertices on leaf arcs · points near them).
 Index prune_branches(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
-                     const VertexSlices& slices, const PruningOptions& options);
+                     const VertexSlices& slices, const PruningOptions& options,
+                     const Execution& execution = {});
 
 // Removes leaf arcs whose tip lies in the ball of their joint. Returns their number.
 Index remove_spurs(ArcGraph& graph, const BoundingVolumeHierarchy& solid);

@@ -59,11 +59,13 @@ class ArcRefinement {
         execution_(execution),
         type_(homotopy_type(graph)),
         inner_(surface, solid, execution),
-        draft_(options.centering) {
+        draft_(options.centering),
+        touch_up_(options.centering) {
     // Until the graph's shape is settled a coarser line will do.
     draft_.rounds = (options.centering.rounds + 2) / 3;
     draft_.step = 2 * options.centering.step;
     draft_.rays = std::max(4, 2 * options.centering.rays / 3);
+    touch_up_.rounds = draft_.rounds;
   }
 
   RefinementCounts run() {
@@ -83,7 +85,7 @@ class ArcRefinement {
     center(draft_);
     prune(1.0);
     center(options_.centering);
-    if (drop_spurs() > 0) center(options_.centering);
+    if (drop_spurs() > 0) center(touch_up_);
     subdivide(graph_, 1.25 * options_.centering.step);  // rounds of centring stretch some edges
     return counts_;
   }
@@ -99,14 +101,14 @@ class ArcRefinement {
     keep_type("routing inside");
   }
   void aim() {
-    aim_ends(graph_, surface_, solid_, options_.centering.step);
+    aim_ends(graph_, surface_, solid_, options_.centering.step, execution_);
     keep_type("aiming of ends");
   }
   void prune(double share) {
     PruningOptions pruning = options_.pruning;
     pruning.significance *= share;
     pruning.smallest *= share;
-    counts_.pruned += prune_branches(graph_, surface_, solid_, slices_, pruning);
+    counts_.pruned += prune_branches(graph_, surface_, solid_, slices_, pruning, execution_);
     keep_type("pruning");
     counts_.joints_merged += merge_joints(graph_, solid_, options_.joint_overlap);
     dissolve_through_hubs(graph_);
@@ -121,8 +123,8 @@ class ArcRefinement {
     keep_type("zipping");
   }
   void complete() {
-    counts_.completed =
-        complete_limbs(graph_, surface_, solid_, slices_, options_.pruning, options_.centering.step, inner_);
+    counts_.completed = complete_limbs(graph_, surface_, solid_, slices_, options_.pruning,
+                                       options_.centering.step, inner_, execution_);
     keep_type("completion of limbs");
   }
   void extend() {
@@ -144,7 +146,7 @@ class ArcRefinement {
   const Execution& execution_;
   const ArcGraphType type_;
   InnerGraph inner_;
-  CenteringOptions draft_;
+  CenteringOptions draft_, touch_up_;
   RefinementCounts counts_;
 };
 

@@ -56,9 +56,9 @@ inline bool aim_arc(std::vector<Vector3>& points, const Vector3& target, bool wi
 }  // namespace detail
 
 inline Index aim_ends(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
-                      double step) {
+                      double step, const Execution& execution) {
   const auto at = graph.incidence();
-  const detail::ArcBalls balls(graph, solid);
+  const detail::ArcBalls balls(graph, solid, execution);
   const detail::ArcParts parts(graph, at);
   Index aimed = 0;
   for (const auto& [a, joint] : parts.leaves) {

@@ -183,32 +183,36 @@ inline std::vector<Vector3> solve_positions(const ArcPoints& points, const std::
                                             double smoothness) {
   using Triplet = Eigen::Triplet<double>;
   const Index n = points.count();
+  // The chains' points come first and the joints last, so elimination along the chains fills in next to
+  // nothing and needs no ordering of its own.
+  const auto row = [n](Index i) { return n - 1 - i; };
   std::vector<Triplet> entries;
   Eigen::MatrixX3d right(n, 3);
   for (Index i = 0; i < n; ++i) {
     const double w = std::max(pulls[i].weight, 1e-9);
-    entries.emplace_back(i, i, w);
-    right.row(i) = w * pulls[i].goal.transpose();
+    entries.emplace_back(row(i), row(i), w);
+    right.row(row(i)) = w * pulls[i].goal.transpose();
     const auto& next = points.next[i];
     if (next.size() < 2) continue;
     const double mu =
         smoothness * pulls[i].stiffness * (points.kind[i] == ArcPoints::Kind::kInner ? 1.0 : 0.3);
     // Row r = e_i − Σ e_j / k; its outer product enters the matrix.
     const double k = static_cast<double>(next.size());
-    entries.emplace_back(i, i, mu);
+    entries.emplace_back(row(i), row(i), mu);
     for (const Index a : next) {
-      entries.emplace_back(i, a, -mu / k);
-      entries.emplace_back(a, i, -mu / k);
-      for (const Index b : next) entries.emplace_back(a, b, mu / (k * k));
+      entries.emplace_back(row(i), row(a), -mu / k);
+      entries.emplace_back(row(a), row(i), -mu / k);
+      for (const Index b : next) entries.emplace_back(row(a), row(b), mu / (k * k));
     }
   }
   Eigen::SparseMatrix<double> matrix(n, n);
   matrix.setFromTriplets(entries.begin(), entries.end());
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(matrix);
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::NaturalOrdering<int>> solver(
+      matrix);
   if (solver.info() != Eigen::Success) return points.x;
   const Eigen::MatrixX3d solution = solver.solve(right);
   std::vector<Vector3> x(points.x.size());
-  for (Index i = 0; i < n; ++i) x[i] = solution.row(i).transpose();
+  for (Index i = 0; i < n; ++i) x[i] = solution.row(row(i)).transpose();
   return x;
 }
 

@@ -23,7 +23,8 @@ struct GraphPoint {
 class LimbCompletion {
  public:
   LimbCompletion(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
-                 const VertexSlices& slices, const PruningOptions& options, double step, InnerGraph& inner)
+                 const VertexSlices& slices, const PruningOptions& options, double step, InnerGraph& inner,
+                 const Execution& execution)
       : graph_(graph),
         surface_(surface),
         solid_(solid),
@@ -31,7 +32,7 @@ class LimbCompletion {
         options_(options),
         step_(step),
         inner_(inner) {
-    const ArcBalls balls(graph, solid);
+    const ArcBalls balls(graph, solid, execution);
     outside_.assign(surface.position.size(), std::numeric_limits<double>::infinity());
     for (Index h = 0; h < graph.hub_count(); ++h)
       if (graph.hub_alive[h]) cover({balls.hub[h]});
@@ -228,8 +229,9 @@ class LimbCompletion {
 
 inline Index complete_limbs(ArcGraph& graph, const SurfaceSnapshot& surface,
                             const BoundingVolumeHierarchy& solid, const VertexSlices& slices,
-                            const PruningOptions& options, double step, detail::InnerGraph& inner) {
-  return detail::LimbCompletion(graph, surface, solid, slices, options, step, inner).run();
+                            const PruningOptions& options, double step, detail::InnerGraph& inner,
+                            const Execution& execution) {
+  return detail::LimbCompletion(graph, surface, solid, slices, options, step, inner, execution).run();
 }
 
 inline Index complete_limbs(ArcGraph& graph, const SurfaceSnapshot& surface,

@@ -22,14 +22,21 @@ struct ArcBalls {
   std::vector<std::vector<Ball>> arc;
   std::vector<Ball> hub;
 
-  ArcBalls(const ArcGraph& graph, const BoundingVolumeHierarchy& solid) : arc(graph.arcs.size()) {
-    for (Index h = 0; h < graph.hub_count(); ++h)
-      hub.push_back(
-          {graph.hub_position[h], graph.hub_alive[h] ? solid.distance(graph.hub_position[h]) : 0.0});
+  ArcBalls(const ArcGraph& graph, const BoundingVolumeHierarchy& solid, const Execution& execution)
+      : arc(graph.arcs.size()) {
+    for (const Vector3& x : graph.hub_position) hub.push_back({x, 0.0});
     for (std::size_t a = 0; a < arc.size(); ++a)
       if (graph.arcs[a].alive)
         for (std::size_t i = 1; i + 1 < graph.arcs[a].points.size(); ++i)
-          arc[a].push_back({graph.arcs[a].points[i], solid.distance(graph.arcs[a].points[i])});
+          arc[a].push_back({graph.arcs[a].points[i], 0.0});
+    std::vector<Ball*> all;
+    for (Index h = 0; h < graph.hub_count(); ++h)
+      if (graph.hub_alive[h]) all.push_back(&hub[h]);
+    for (auto& balls : arc)
+      for (Ball& ball : balls) all.push_back(&ball);
+    parallel_for(
+        static_cast<Index>(all.size()), "balls", execution, [] { return 0; },
+        [&](Index i, int) { all[i]->radius = solid.distance(all[i]->centre); });
   }
 };
 
@@ -113,10 +120,10 @@ inline std::array<double, 2> section_size(const BoundingVolumeHierarchy& solid, 
   return {slice_half_width(perimeter, area), perimeter};
 }
 
-// Medians over at most 15 points of an arc outside the joint's ball.
+// Medians over at most nine points of an arc outside the joint's ball.
 inline std::array<double, 2> arc_sections(const Arc& arc, const Ball& joint,
                                           const BoundingVolumeHierarchy& solid) {
-  constexpr std::size_t kMost = 15;
+  constexpr std::size_t kMost = 9;
   std::vector<std::size_t> outside;
   for (std::size_t i = 1; i + 1 < arc.points.size(); ++i)
     if ((arc.points[i] - joint.centre).norm() >= joint.radius) outside.push_back(i);
@@ -160,18 +167,20 @@ inline LeafSignificance leaf_significance(const ArcGraph& graph, const SurfaceSn
 class LeafPruner {
  public:
   LeafPruner(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
-             const VertexSlices& slices, const PruningOptions& options)
+             const VertexSlices& slices, const PruningOptions& options, const Execution& execution)
       : graph_(graph),
         surface_(surface),
         solid_(solid),
         slices_(slices),
         options_(options),
         at_(graph.incidence()),
-        balls_(graph, solid),
+        balls_(graph, solid, execution),
         parts_(graph, at_),
         score_(parts_.leaves.size()),
         stale_(parts_.leaves.size(), false) {
-    for (std::size_t i = 0; i < score_.size(); ++i) score_[i] = score(i);
+    parallel_for(
+        static_cast<Index>(score_.size()), "pruning", execution, [] { return 0; },
+        [&](Index i, int) { score_[i] = score(static_cast<std::size_t>(i)); }, 1);
   }
 
   // An arc that lies near a removed one waits for the next sweep: two arcs in one limb cover each other, so
@@ -244,12 +253,12 @@ inline double LeafSignificance::value() const {
 
 inline Index prune_branches(ArcGraph& graph, const SurfaceSnapshot& surface,
                             const BoundingVolumeHierarchy& solid, const VertexSlices& slices,
-                            const PruningOptions& options) {
+                            const PruningOptions& options, const Execution& execution) {
   validate(options);
   Index removed = 0;
   while (true) {
     dissolve_through_hubs(graph);
-    const Index swept = detail::LeafPruner(graph, surface, solid, slices, options).sweep();
+    const Index swept = detail::LeafPruner(graph, surface, solid, slices, options, execution).sweep();
     if (swept == 0) return removed;
     removed += swept;
   }
