@@ -262,7 +262,7 @@ inline void center_arcs(ArcGraph& graph, const BoundingVolumeHierarchy& solid,
     const auto left_out = detail::left_out(points, round);
     std::vector<detail::Pull> pulls(points.x.size());
     parallel_for(
-        points.count(), "centring", execution, [] { return 0; },
+        points.count(), "arcs", execution, [] { return 0; },
         [&](Index i, int) {
           using Kind = detail::ArcPoints::Kind;
           pulls[i] = {points.x[i], 1e-3, 1.0};

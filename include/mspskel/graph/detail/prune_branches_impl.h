@@ -35,7 +35,7 @@ struct ArcBalls {
     for (auto& balls : arc)
       for (Ball& ball : balls) all.push_back(&ball);
     parallel_for(
-        static_cast<Index>(all.size()), "balls", execution, [] { return 0; },
+        static_cast<Index>(all.size()), "arcs", execution, [] { return 0; },
         [&](Index i, int) { all[i]->radius = solid.distance(all[i]->centre); });
   }
 };
@@ -179,7 +179,7 @@ class LeafPruner {
         score_(parts_.leaves.size()),
         stale_(parts_.leaves.size(), false) {
     parallel_for(
-        static_cast<Index>(score_.size()), "pruning", execution, [] { return 0; },
+        static_cast<Index>(score_.size()), "arcs", execution, [] { return 0; },
         [&](Index i, int) { score_[i] = score(static_cast<std::size_t>(i)); }, 1);
   }
 
