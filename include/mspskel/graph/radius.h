@@ -1,6 +1,8 @@
 // Radii of the maximal inscribed balls round the skeleton's nodes.
 #pragma once
 
+#include <limits>
+
 #include "mspskel/base/progress.h"
 #include "mspskel/graph/curve_skeleton.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
@@ -17,10 +19,18 @@ inline double surface_distance(const SurfaceSnapshot& snapshot, const BoundingVo
 // if the progress callback asks to stop; radii are then partly set.
 inline void set_radii(const SurfaceSnapshot& snapshot, const BoundingVolumeHierarchy& hierarchy,
                       CurveSkeleton& skeleton, const Execution& execution = {}) {
+  struct Before {
+    Vector3 position = Vector3::Zero();
+    double distance = std::numeric_limits<double>::infinity();
+  };
   parallel_for(
-      static_cast<Index>(skeleton.nodes.size()), "radius", execution, [] { return 0; },
-      [&](Index i, int&) {
-        skeleton.nodes[i].radius = surface_distance(snapshot, hierarchy, skeleton.nodes[i].position);
+      static_cast<Index>(skeleton.nodes.size()), "radius", execution, [] { return Before(); },
+      [&](Index i, Before& before) {
+        const Vector3 p = snapshot.frame.to_normalised(skeleton.nodes[i].position);
+        // No farther than the way by the node before. The margin is for rounding.
+        const double bound = (before.distance + (p - before.position).norm()) * (1 + 1e-9) + 1e-12;
+        before = {p, hierarchy.closest(p, bound).distance};
+        skeleton.nodes[i].radius = snapshot.frame.scale * before.distance;
       });
 }
 

@@ -96,17 +96,17 @@ inline void assign_hub_vertices(const ArcGraph& graph, const SurfaceSnapshot& su
     const Index hub = graph.hub_of_vertex[v];
     if (hub == kNone) continue;
     const Vector3 x = surface.frame.to_model(surface.position[v]);
-    const auto outside = [&](Index node) {
-      return (skeleton.nodes[node].position - x).norm() - skeleton.nodes[node].radius;
-    };
     Index best = hub_node[hub];
-    double nearest = outside(best);
+    // The least distance to a ball; no root for the many balls that are farther.
+    double nearest = (skeleton.nodes[best].position - x).norm() - skeleton.nodes[best].radius;
     for (const Index a : at[hub])
-      for (const Index node : arc_nodes[a].nodes)
-        if (outside(node) < nearest) {
-          nearest = outside(node);
-          best = node;
-        }
+      for (const Index i : arc_nodes[a].nodes) {
+        const SkeletonNode& node = skeleton.nodes[i];
+        const double reach = nearest + node.radius, square = (node.position - x).squaredNorm();
+        if (reach <= 0 || square >= reach * reach) continue;
+        nearest = std::sqrt(square) - node.radius;
+        best = i;
+      }
     skeleton.node_of_vertex[v] = best;
   }
 }

@@ -24,6 +24,7 @@ class LabelledPaths {
     const Index n = surface.vertex_count();
     point_.resize(2 * static_cast<std::size_t>(n));
     clearance_.assign(point_.size(), 0.0);
+    bound_.assign(point_.size(), 0.0);
     for (Index v = 0; v < n; ++v) {
       if (surface.vertex_halfedge[v] == kNone) continue;
       const Vector3 inward = -surface.normal[v];
@@ -31,8 +32,8 @@ class LabelledPaths {
       const auto hit = solid.first_hit(start, inward);
       if (!hit) continue;
       const double shallow = std::min(0.05 * hit->distance, 0.02 * edge_length(v));
-      place(v, start + 0.5 * hit->distance * inward);
-      place(v + n, start + shallow * inward);
+      place(v, start, 0.5 * hit->distance * inward);
+      place(v + n, start, shallow * inward);
     }
   }
 
@@ -52,17 +53,27 @@ class LabelledPaths {
   double edge_length(Index v) const {
     return (surface_.position[surface_.target(surface_.vertex_halfedge[v])] - surface_.position[v]).norm();
   }
-  void place(Index node, const Vector3& x) {
-    if (!solid_.inside(x)) return;
-    point_[node] = x;
-    clearance_[node] = solid_.distance(x);
+  void place(Index node, const Vector3& start, const Vector3& way) {
+    point_[node] = start + way;
+    bound_[node] = way.norm() + 2e-7;
+    clearance_[node] = kUnknown;
   }
-  double step_cost(Index u, Index w) const {
-    return (point_[u] - point_[w]).norm() / std::max(std::min(clearance_[u], clearance_[w]), 1e-6);
+  // Distance to the surface, 0 where the node is not usable. Found when first asked for: most nodes never
+  // are.
+  double clearance(Index node) {
+    double& known = clearance_[node];
+    if (known == kUnknown)
+      known = solid_.inside(point_[node])
+                  ? std::min(bound_[node], solid_.closest(point_[node], bound_[node]).distance)
+                  : 0.0;
+    return known;
+  }
+  double step_cost(Index u, Index w) {
+    return (point_[u] - point_[w]).norm() / std::max(std::min(clearance(u), clearance(w)), 1e-6);
   }
   void reach(Index node, double cost, CocycleLabel label, Index from);
   void expand(Index state);
-  std::vector<std::pair<double, Index>> entries(const Vector3& x) const;
+  std::vector<std::pair<double, Index>> entries(const Vector3& x);
   std::vector<Vector3> trace(Index state) const {
     std::vector<Vector3> points;
     for (; state != kNone; state = states_[state].from) points.push_back(point_[states_[state].node]);
@@ -74,7 +85,8 @@ class LabelledPaths {
   const BoundingVolumeHierarchy& solid_;
   const CrossingLabels& crossings_;
   std::vector<Vector3> point_;
-  std::vector<double> clearance_;  // 0: not usable
+  static constexpr double kUnknown = -1;
+  std::vector<double> clearance_, bound_;
   std::vector<State> states_;
   std::vector<std::vector<Index>> at_;  // states of each node
   std::priority_queue<std::pair<double, Index>, std::vector<std::pair<double, Index>>, std::greater<>> queue_;
@@ -102,7 +114,7 @@ inline void LabelledPaths::expand(Index state) {
   const CocycleLabel label = states_[state].label;
   const double cost = states_[state].cost;
   const auto step = [&](Index to) {
-    if (clearance_[to] <= 0 || solid_.segment_crosses(point_[node], point_[to])) return;
+    if (clearance(to) <= 0 || solid_.segment_crosses(point_[node], point_[to])) return;
     reach(to, cost + step_cost(node, to), label + crossings_(point_[node], point_[to]), state);
   };
   step(node < n ? node + n : v);
@@ -116,15 +128,15 @@ inline void LabelledPaths::expand(Index state) {
 }
 
 // The nearest nodes that x sees, with their distances.
-inline std::vector<std::pair<double, Index>> LabelledPaths::entries(const Vector3& x) const {
+inline std::vector<std::pair<double, Index>> LabelledPaths::entries(const Vector3& x) {
   constexpr std::size_t kWanted = 8, kTried = 128;
   std::vector<std::pair<double, Index>> all, seen;
   for (std::size_t i = 0; i < point_.size(); ++i)
-    if (clearance_[i] > 0) all.push_back({(point_[i] - x).norm(), static_cast<Index>(i)});
+    if (clearance_[i] != 0) all.push_back({(point_[i] - x).norm(), static_cast<Index>(i)});
   const auto end = all.begin() + static_cast<std::ptrdiff_t>(std::min(all.size(), kTried));
   std::partial_sort(all.begin(), end, all.end());
   for (auto it = all.begin(); it != end && seen.size() < kWanted; ++it)
-    if (!solid_.segment_crosses(x, point_[it->second])) seen.push_back(*it);
+    if (clearance(it->second) > 0 && !solid_.segment_crosses(x, point_[it->second])) seen.push_back(*it);
   return seen;
 }
 
@@ -134,7 +146,7 @@ std::optional<std::vector<Vector3>> LabelledPaths::find(const Vector3& a, const 
   at_.assign(point_.size(), {});
   queue_ = {};
   for (const auto& [distance, node] : entries(a))
-    reach(node, distance / clearance_[node], crossings_(a, point_[node]), kNone);
+    reach(node, distance / clearance(node), crossings_(a, point_[node]), kNone);
   std::map<Index, CocycleLabel> goal;
   for (const auto& [distance, node] : entries(b)) goal[node] = crossings_(point_[node], b);
   while (!queue_.empty()) {

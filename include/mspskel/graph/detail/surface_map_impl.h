@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <tuple>
 
@@ -55,18 +56,32 @@ inline std::vector<Vector3> patch_centroids(const SurfaceSnapshot& snapshot, con
   return sum;
 }
 
-// One round: where each unsettled patch that touches a settled one goes; kNone for the others.
-inline std::vector<Index> choose_nodes(const SurfaceSnapshot& snapshot, const CurveSkeleton& skeleton,
-                                       const std::vector<std::vector<Index>>& next,
-                                       const SurfacePatches& patches, const std::vector<bool>& settled) {
-  using Choice = std::tuple<bool, double, Index>;  // not joined, squared distance, node
-  const auto centroid = patch_centroids(snapshot, patches);
-  std::vector<Index> goes(patches.node.size(), kNone);
-  std::vector<Choice> best(patches.node.size(), Choice(true, std::numeric_limits<double>::infinity(), 0));
+// Pairs of patches that touch, the first one unsettled, each pair once.
+inline std::vector<std::pair<Index, Index>> touching_patches(const SurfaceSnapshot& snapshot,
+                                                             const SurfacePatches& patches,
+                                                             const std::vector<bool>& settled) {
+  std::vector<std::pair<Index, Index>> touching;
   for (Index h = 0; h < snapshot.halfedge_count(); ++h) {
     const Index from = patches.patch_of_vertex[snapshot.origin[h]],
                 to = patches.patch_of_vertex[snapshot.target(h)];
-    if (from == to || settled[from] || !settled[to]) continue;
+    if (from != to && !settled[from]) touching.emplace_back(from, to);
+  }
+  std::sort(touching.begin(), touching.end());
+  touching.erase(std::unique(touching.begin(), touching.end()), touching.end());
+  return touching;
+}
+
+// One round: where each unsettled patch that touches a settled one goes; kNone for the others.
+inline std::vector<Index> choose_nodes(const SurfaceSnapshot& snapshot, const CurveSkeleton& skeleton,
+                                       const std::vector<std::vector<Index>>& next,
+                                       const SurfacePatches& patches, const std::vector<Vector3>& centroid,
+                                       const std::vector<std::pair<Index, Index>>& touching,
+                                       const std::vector<bool>& settled) {
+  using Choice = std::tuple<bool, double, Index>;  // not joined, squared distance, node
+  std::vector<Index> goes(patches.node.size(), kNone);
+  std::vector<Choice> best(patches.node.size(), Choice(true, std::numeric_limits<double>::infinity(), 0));
+  for (const auto& [from, to] : touching) {
+    if (settled[from] || !settled[to]) continue;
     const Index node = patches.node[to];
     const auto& joined = next[patches.node[from]];
     const Vector3 place = snapshot.frame.to_normalised(skeleton.nodes[node].position);
@@ -80,54 +95,104 @@ inline std::vector<Index> choose_nodes(const SurfaceSnapshot& snapshot, const Cu
   return goes;
 }
 
-// The nearer end of the edge of the chain that is nearest to p (model units).
-inline Index nearest_chain_node(const CurveSkeleton& skeleton, const Branch& branch, const Vector3& p) {
-  Index best = branch.nodes[0];
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k + 1 < branch.nodes.size(); ++k) {
-    const Vector3 &a = skeleton.nodes[branch.nodes[k]].position,
-                  &b = skeleton.nodes[branch.nodes[k + 1]].position;
-    const double square = (b - a).squaredNorm();
-    const double s = square > 0 ? std::min(1.0, std::max(0.0, (p - a).dot(b - a) / square)) : 0.0;
-    const double d = (a + s * (b - a) - p).squaredNorm();
-    if (d < least) {
-      least = d;
-      best = branch.nodes[s <= 0.5 ? k : k + 1];
+// A patch whose node has come to lie next to it, by what other patches did, is part of that node's patch.
+inline void settle_joined(const SurfacePatches& patches, const std::vector<std::pair<Index, Index>>& touching,
+                          std::vector<bool>& settled) {
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const auto& [from, to] : touching) {
+      if (settled[from] || !settled[to] || patches.node[from] != patches.node[to]) continue;
+      settled[from] = changed = true;
     }
   }
-  return best;
 }
+
+// Finds the edge of a chain that is nearest to a point.
+class NearestOnChain {
+ public:
+  NearestOnChain(const CurveSkeleton& skeleton, const Branch& branch) : branch_(branch) {
+    double along = 0;
+    for (const Index node : branch.nodes) {
+      const Vector3& p = skeleton.nodes[node].position;
+      if (!point_.empty()) along += (p - point_.back()).norm();
+      point_.push_back(p);
+      along_.push_back(along);
+    }
+  }
+
+  // Its nearer end, in model units; of equals the first. Edges that are too far along the chain to be nearer
+  // than the best so far, at first the answer before this one, are skipped: points in a sensible order look
+  // at few.
+  Index operator()(const Vector3& p) {
+    double s = 0, least = (1 + 1e-9) * square_to(last_, p, s), near = std::sqrt(least);
+    Index best = branch_.nodes[s <= 0.5 ? last_ : last_ + 1];
+    for (std::size_t k = 0; k + 1 < point_.size(); ++k) {
+      const double square = square_to(k, p, s);
+      if (square < least) {
+        least = square;
+        near = std::sqrt(square);
+        best = branch_.nodes[s <= 0.5 ? k : k + 1];
+        last_ = k;
+      } else if (square > 1.5 * least) {
+        const double reach = along_[k] + (std::sqrt(square) - near) * (1 - 1e-9);
+        while (k + 2 < point_.size() && along_[k + 2] < reach) ++k;
+      }
+    }
+    return best;
+  }
+
+ private:
+  // To edge k, and the share of the edge at which its nearest point lies.
+  double square_to(std::size_t k, const Vector3& p, double& share) const {
+    if (point_.size() == 1) return (p - point_[0]).squaredNorm();
+    const Vector3 edge = point_[k + 1] - point_[k], from = p - point_[k];
+    const double square = edge.squaredNorm();
+    share = square > 0 ? std::min(1.0, std::max(0.0, from.dot(edge) / square)) : 0.0;
+    return (share * edge - from).squaredNorm();
+  }
+
+  const Branch& branch_;
+  std::vector<Vector3> point_;
+  std::vector<double> along_;
+  std::size_t last_ = 0;
+};
 
 }  // namespace detail
 
 inline SurfacePatches find_patches(const SurfaceSnapshot& snapshot,
                                    const std::vector<Index>& node_of_vertex) {
+  // Union and find in the order of storage: a walk from vertex to vertex would wait for memory. The root is
+  // the first vertex of its set.
   SurfacePatches patches;
-  patches.patch_of_vertex.assign(snapshot.vertex_count(), kNone);
-  std::vector<Index> stack;
-  for (Index seed = 0; seed < snapshot.vertex_count(); ++seed) {
-    const Index node = node_of_vertex[seed];
-    if (node == kNone || patches.patch_of_vertex[seed] != kNone || snapshot.vertex_halfedge[seed] == kNone)
+  std::vector<Index>& root = patches.patch_of_vertex;
+  root.resize(snapshot.position.size());
+  std::iota(root.begin(), root.end(), 0);
+  const auto find = [&](Index v) {
+    while (root[v] != v) v = root[v] = root[root[v]];
+    return v;
+  };
+  for (Index h = 0; h < snapshot.halfedge_count(); ++h) {
+    if (h > snapshot.twin[h]) continue;
+    const Index a = snapshot.origin[h], b = snapshot.target(h);
+    if (node_of_vertex[a] != node_of_vertex[b]) continue;
+    const Index ra = find(a), rb = find(b);
+    root[std::max(ra, rb)] = std::min(ra, rb);
+  }
+  for (Index v = 0; v < snapshot.vertex_count(); ++v) {
+    if (node_of_vertex[v] == kNone || snapshot.vertex_halfedge[v] == kNone) {
+      root[v] = kNone;
       continue;
-    const Index patch = static_cast<Index>(patches.node.size());
-    patches.node.push_back(node);
-    patches.area.push_back(0.0);
-    patches.patch_of_vertex[seed] = patch;
-    stack.push_back(seed);
-    while (!stack.empty()) {
-      const Index v = stack.back(), first = snapshot.vertex_halfedge[v];
-      stack.pop_back();
-      patches.area.back() += snapshot.vertex_area[v];
-      Index h = first;
-      do {
-        const Index w = snapshot.target(h);
-        if (node_of_vertex[w] == node && patches.patch_of_vertex[w] == kNone) {
-          patches.patch_of_vertex[w] = patch;
-          stack.push_back(w);
-        }
-        h = snapshot.next_outgoing(h);
-      } while (h != first);
     }
+    // Roots come first, and hold the patch's number from then on.
+    Index& patch = root[v];
+    if (patch == v) {
+      patch = static_cast<Index>(patches.node.size());
+      patches.node.push_back(node_of_vertex[v]);
+      patches.area.push_back(0.0);
+    } else {
+      patch = root[patch];
+    }
+    patches.area[patch] += snapshot.vertex_area[v];
   }
   return patches;
 }
@@ -160,26 +225,36 @@ inline SurfaceMapReport report_surface_map(const SurfaceSnapshot& snapshot, cons
 
 inline PatchRepair make_patches_connected(const SurfaceSnapshot& snapshot, CurveSkeleton& skeleton) {
   detail::require_partition(snapshot, skeleton);
-  const auto next = adjacency(skeleton);
+  SurfacePatches patches = find_patches(snapshot, skeleton.node_of_vertex);
+  std::vector<bool> settled = detail::settled_patches(snapshot, patches);
   PatchRepair repair;
-  for (;;) {
-    const SurfacePatches patches = find_patches(snapshot, skeleton.node_of_vertex);
-    const std::vector<bool> settled = detail::settled_patches(snapshot, patches);
-    if (std::find(settled.begin(), settled.end(), false) == settled.end()) break;
+  std::vector<Index> kept(skeleton.nodes.size(), 0);
+  for (std::size_t k = 0; k < settled.size(); ++k)
+    if (settled[k] && ++kept[patches.node[k]] == 2) ++repair.nodes_left;
+  if (std::find(settled.begin(), settled.end(), false) != settled.end()) {
+    const auto next = adjacency(skeleton);
+    const auto centroid = detail::patch_centroids(snapshot, patches);
+    const auto touching = detail::touching_patches(snapshot, patches, settled);
     // Each component is connected and has a settled patch, so some unsettled patch touches a settled one.
-    const std::vector<Index> goes = detail::choose_nodes(snapshot, skeleton, next, patches, settled);
-    ++repair.rounds;
-    repair.moved_patches += static_cast<Index>(goes.size() - std::count(goes.begin(), goes.end(), kNone));
+    while (std::find(settled.begin(), settled.end(), false) != settled.end()) {
+      const std::vector<Index> goes =
+          detail::choose_nodes(snapshot, skeleton, next, patches, centroid, touching, settled);
+      ++repair.rounds;
+      for (std::size_t k = 0; k < goes.size(); ++k) {
+        if (goes[k] == kNone) continue;
+        ++repair.moved_patches;
+        patches.node[k] = goes[k];
+        settled[k] = true;
+      }
+      detail::settle_joined(patches, touching, settled);
+    }
     for (Index v = 0; v < snapshot.vertex_count(); ++v) {
       const Index patch = patches.patch_of_vertex[v];
-      if (patch == kNone || goes[patch] == kNone) continue;
-      skeleton.node_of_vertex[v] = goes[patch];
+      if (patch == kNone || skeleton.node_of_vertex[v] == patches.node[patch]) continue;
+      skeleton.node_of_vertex[v] = patches.node[patch];
       ++repair.moved_vertices;
     }
   }
-  const SurfaceMapReport report = report_surface_map(snapshot, skeleton);
-  repair.nodes_left = static_cast<Index>(
-      std::count_if(report.patches.begin(), report.patches.end(), [](Index k) { return k > 1; }));
   set_areas(snapshot, skeleton);
   return repair;
 }
@@ -196,14 +271,15 @@ inline PatchRepair assign_vertices_to_branch_nodes(const SurfaceSnapshot& snapsh
   if (static_cast<Index>(branch_of_vertex.size()) != snapshot.vertex_count())
     throw UsageError("branch_of_vertex has " + std::to_string(branch_of_vertex.size()) + " entries for " +
                      std::to_string(snapshot.vertex_count()) + " vertices");
+  std::vector<detail::NearestOnChain> nearest;
+  for (const Branch& branch : branches) nearest.emplace_back(skeleton, branch);
   skeleton.node_of_vertex.resize(branch_of_vertex.size(), kNone);
   for (Index v = 0; v < snapshot.vertex_count(); ++v) {
     const Index b = branch_of_vertex[v];
     if (b == kNone || snapshot.component[v] == kNone) continue;
     if (b < 0 || b >= static_cast<Index>(branches.size()))
       throw UsageError("vertex " + std::to_string(v) + " belongs to branch " + std::to_string(b));
-    skeleton.node_of_vertex[v] =
-        detail::nearest_chain_node(skeleton, branches[b], snapshot.frame.to_model(snapshot.position[v]));
+    skeleton.node_of_vertex[v] = nearest[b](snapshot.frame.to_model(snapshot.position[v]));
   }
   return make_patches_connected(snapshot, skeleton);
 }
