@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <future>
 
 namespace mspskel {
 namespace detail {
@@ -144,8 +145,9 @@ inline ExtractResult extract_skeleton_of_snapshot(SurfaceSnapshot surface, const
   ExtractResult result;
   detail::StageClock clock(result.seconds);
   result.surface = std::move(surface);
-  const BoundingVolumeHierarchy solid(result.surface);
-  clock.lap("hierarchy");
+  // Beside the coarsening where there is a second thread.
+  const auto policy = thread_count(options.execution) > 1 ? std::launch::async : std::launch::deferred;
+  auto hierarchy = std::async(policy, [&] { return BoundingVolumeHierarchy(result.surface); });
   // Each shell bounds a solid of its own, the ones round cavities too.
   const std::optional<SurfaceSnapshot> oriented = orient_shells_outward(result.surface);
   const SurfaceSnapshot& shells = oriented ? *oriented : result.surface;
@@ -156,6 +158,8 @@ inline ExtractResult extract_skeleton_of_snapshot(SurfaceSnapshot surface, const
     result.coarse = coarsen_surface(shells, options.coarsening, options.execution);
     clock.lap("coarsening");
   }
+  const BoundingVolumeHierarchy solid = hierarchy.get();
+  clock.lap("hierarchy");
   const SurfaceSnapshot& working = result.coarse ? result.coarse->surface : shells;
   detail::run_surface_stages(working, solid, options, result, clock);
   ArcGraph arcs;
