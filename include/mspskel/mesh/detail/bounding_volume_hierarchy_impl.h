@@ -10,7 +10,7 @@ namespace detail {
 
 inline PrimitiveBox box_of(const Triangle& t, Index primitive) {
   const Vector3 low = t.a.cwiseMin(t.b).cwiseMin(t.c), high = t.a.cwiseMax(t.b).cwiseMax(t.c);
-  return {{static_cast<float>(low[0]), static_cast<float>(low[1]), static_cast<float>(low[2])},
+  return {{static_cast<float>(low[0]), static_cast<float>(low[1]), static_cast<float>(low[2]), 0.0f},
           {static_cast<float>(high[0]), static_cast<float>(high[1]), static_cast<float>(high[2])},
           primitive};
 }

@@ -24,8 +24,9 @@ inline void store(const Lanes& lanes, float* four) {
   out = lanes;
 }
 
-struct PrimitiveBox {
-  Float3 low, high;
+// Both corners are read as four numbers, the last of which means nothing.
+struct alignas(16) PrimitiveBox {
+  float low[4], high[3];
   Index primitive;
 };
 
@@ -69,34 +70,29 @@ class BoxTree {
 };
 
 struct Bounds {
-  Float3 low{std::numeric_limits<float>::max(), std::numeric_limits<float>::max(),
-             std::numeric_limits<float>::max()};
-  Float3 high{std::numeric_limits<float>::lowest(), std::numeric_limits<float>::lowest(),
-              std::numeric_limits<float>::lowest()};
+  Lanes low = Lanes::Constant(std::numeric_limits<float>::max());
+  Lanes high = Lanes::Constant(std::numeric_limits<float>::lowest());
 
-  void add(const Float3& lo, const Float3& hi) {
-    for (int k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], lo[k]);
-      high[k] = std::max(high[k], hi[k]);
-    }
+  void add(const Lanes& lo, const Lanes& hi) {
+    low = low.min(lo);
+    high = high.max(hi);
   }
   float half_area() const {
-    const float x = high[0] - low[0], y = high[1] - low[1], z = high[2] - low[2];
-    return x < 0 ? 0.0f : x * y + y * z + z * x;
+    const Lanes size = high - low;
+    return size[0] < 0 ? 0.0f : size[0] * size[1] + size[1] * size[2] + size[2] * size[0];
   }
 };
 
-inline Float3 twice_centre(const PrimitiveBox& b) {
-  return {b.low[0] + b.high[0], b.low[1] + b.high[1], b.low[2] + b.high[2]};
-}
+inline Lanes low_of(const PrimitiveBox& b) { return load(b.low); }
+inline Lanes high_of(const PrimitiveBox& b) { return load(b.high); }
 
 // Where to cut [begin, end) in two, after reordering it: 16 bins along the longest axis of the centres.
 inline Index split(PrimitiveBox* boxes, Index begin, Index end, bool halve) {
   constexpr int kBins = 16;
   Bounds centres;
   for (Index i = begin; i < end; ++i) {
-    const Float3 c = twice_centre(boxes[i]);
-    centres.add(c, c);
+    const Lanes twice = low_of(boxes[i]) + high_of(boxes[i]);
+    centres.add(twice, twice);
   }
   int axis = 0;
   for (int k = 1; k < 3; ++k)
@@ -107,7 +103,7 @@ inline Index split(PrimitiveBox* boxes, Index begin, Index end, bool halve) {
   if (halve) {
     std::nth_element(boxes + begin, boxes + middle, boxes + end,
                      [&](const PrimitiveBox& a, const PrimitiveBox& b) {
-                       return twice_centre(a)[axis] < twice_centre(b)[axis];
+                       return a.low[axis] + a.high[axis] < b.low[axis] + b.high[axis];
                      });
     return middle;
   }
@@ -119,7 +115,7 @@ inline Index split(PrimitiveBox* boxes, Index begin, Index end, bool halve) {
   std::array<Index, kBins> count{};
   for (Index i = begin; i < end; ++i) {
     const int k = bin_of(boxes[i]);
-    bin[k].add(boxes[i].low, boxes[i].high);
+    bin[k].add(low_of(boxes[i]), high_of(boxes[i]));
     ++count[k];
   }
   // cost[k]: of everything to the right of the cut after bin k; then swept from the left.
@@ -176,7 +172,7 @@ inline Index BoxTree::build_node(PrimitiveBox* boxes, Index begin, Index end, in
   };
   const auto make_range = [&](Index b, Index e) {
     Range r{b, e, {}};
-    for (Index i = b; i < e; ++i) r.bounds.add(boxes[i].low, boxes[i].high);
+    for (Index i = b; i < e; ++i) r.bounds.add(low_of(boxes[i]), high_of(boxes[i]));
     return r;
   };
   std::array<Range, 4> range;

@@ -5,18 +5,16 @@
 namespace mspskel {
 namespace detail {
 
-inline double angle_between(const Vector3& a, const Vector3& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
-
 // The extent of the points by a double sweep: the vertex farthest from the centroid, then the one farthest
 // from that. It turns with the model, unlike a bounding box, and is at least half the largest distance
 // between two vertices.
 inline double extent(const std::vector<Vector3>& points, const Vector3& centroid) {
   const auto farthest = [&](const Vector3& from) {
-    return *std::max_element(points.begin(), points.end(), [&](const Vector3& a, const Vector3& b) {
-      return (a - from).squaredNorm() < (b - from).squaredNorm();
-    });
+    Vector3 result = from;
+    double most = -1;
+    for (const Vector3& p : points)
+      if (const double square = (p - from).squaredNorm(); square > most) most = square, result = p;
+    return result;
   };
   const Vector3 end = farthest(centroid);
   return (farthest(end) - end).norm();
@@ -52,15 +50,15 @@ inline void measure_vertices(SurfaceSnapshot& s) {
   s.normal.assign(s.position.size(), Vector3::Zero());
   s.vertex_area.assign(s.position.size(), 0.0);
   for (Index f = 0; f < s.face_count(); ++f) {
-    const Vector3 n = s.face_normal_times_twice_area(f);
+    const Index corner[3] = {s.origin[3 * f], s.origin[3 * f + 1], s.origin[3 * f + 2]};
+    const Vector3 ab = s.position[corner[1]] - s.position[corner[0]],
+                  ac = s.position[corner[2]] - s.position[corner[0]], n = ab.cross(ac);
     const double twice = n.norm();
-    for (Index h = 3 * f; h < 3 * f + 3; ++h) {
-      const Vector3& p = s.position[s.origin[h]];
-      s.vertex_area[s.origin[h]] += twice / 6.0;
-      if (twice > 0)
-        s.normal[s.origin[h]] +=
-            angle_between(s.position[s.target(h)] - p, s.position[s.apex(h)] - p) / twice * n;
-    }
+    for (const Index v : corner) s.vertex_area[v] += twice / 6.0;
+    if (!(twice > 0)) continue;
+    const double at_a = std::atan2(twice, ab.dot(ac)), at_b = std::atan2(twice, ab.dot(ab - ac));
+    const double angle[3] = {at_a, at_b, std::max(kPi - at_a - at_b, 0.0)};
+    for (int k = 0; k < 3; ++k) s.normal[corner[k]] += angle[k] / twice * n;
   }
   for (std::size_t v = 0; v < s.normal.size(); ++v) {
     const double length = s.normal[v].norm();
@@ -95,18 +93,25 @@ inline void number_components(SurfaceSnapshot& s) {
 }
 
 inline void check_vertex_fans(const SurfaceSnapshot& s) {
-  std::vector<Index> fan(s.position.size(), 0), incident(s.position.size(), 0);
-  for (Index h = 0; h < s.halfedge_count(); ++h) ++incident[s.origin[h]];
-  for (Index v = 0; v < s.vertex_count(); ++v) {
+  const auto fan_size = [&](Index v) {
     const Index first = s.vertex_halfedge[v];
-    if (first == kNone) continue;
-    Index h = first;
+    Index size = 0, h = first;
     do {
-      ++fan[v];
+      ++size;
       h = s.next_outgoing(h);
-    } while (h != first && fan[v] <= incident[v]);
-    if (fan[v] != incident[v]) throw MeshError("several fans of faces meet at vertex " + std::to_string(v));
-  }
+    } while (h != first);
+    return size;
+  };
+  // One fan a vertex reaches all half-edges, unless some vertex has more.
+  Index reached = 0;
+  for (Index v = 0; v < s.vertex_count(); ++v)
+    if (s.vertex_halfedge[v] != kNone) reached += fan_size(v);
+  if (reached == s.halfedge_count()) return;
+  std::vector<Index> incident(s.position.size(), 0);
+  for (Index h = 0; h < s.halfedge_count(); ++h) ++incident[s.origin[h]];
+  for (Index v = 0; v < s.vertex_count(); ++v)
+    if (s.vertex_halfedge[v] != kNone && fan_size(v) != incident[v])
+      throw MeshError("several fans of faces meet at vertex " + std::to_string(v));
 }
 
 // What follows from the half-edges and the normalised positions.
