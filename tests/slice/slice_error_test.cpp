@@ -72,9 +72,9 @@ TEST_CASE("angles between slices have no sign and end at a right angle") {
   for (const double angle : {0.0, 0.5, 1.5})
     for (const double sign : {1.0, -1.0}) {
       const Vector3 y = sign * Vector3(std::cos(angle), std::sin(angle), 0);
-      CHECK(detail::axis_angle(x, y) == Approx(angle).margin(1e-7));
+      CHECK(axis_angle(x, y) == Approx(angle).margin(1e-7));
     }
-  CHECK(detail::axis_angle(x, Vector3::UnitY()) == Approx(kPi / 2));
+  CHECK(axis_angle(x, Vector3::UnitY()) == Approx(kPi / 2));
 }
 
 TEST_CASE("errors are normalised over the mesh or by the right angle") {

@@ -23,9 +23,9 @@ struct SliceRegion {
 // that the contour goes through, so that the samples on it do not depend on where the walk began.
 void flatten_slice(const SurfaceSnapshot& surface, SliceRegion& slice);
 
-// Whether one of `rays` rays in the plane from a point of the region meets the surface before it meets the
-// region's own contours: then there is a hole (or more than one). Misses holes that lie between the rays.
-// Cost: `rays` ray queries.
+// Whether one of `rays` (an even number) rays in the plane from a point of the region meets the surface
+// before it meets the region's own contours: then there is a hole (or more than one). Misses holes that lie
+// between the rays. Cost: `rays` / 2 ray queries, each for two opposite rays.
 bool may_have_holes(const SliceRegion& slice, const BoundingVolumeHierarchy& solid, const Vector2& from,
                     int rays = 8);
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mspskel/base/types.h"
+#include "mspskel/base/axis_angle.h"
 #include "mspskel/collapse/merging_set.h"
 
 namespace mspskel {
@@ -14,12 +14,6 @@ namespace mspskel {
 inline double perimeter_ratio(double msp_u, double msp_v) {
   const double low = std::min(msp_u, msp_v), high = std::max(msp_u, msp_v);
   return low > 0 ? high / low : 1.0;
-}
-
-// Angle between two axes, 0 to π/2: arccos |a·b|, by atan2 for its accuracy near 0. 0 if either is zero
-// (unknown).
-inline double axis_angle(const Vector3& a, const Vector3& b) {
-  return std::atan2(a.cross(b).norm(), std::abs(a.dot(b)));
 }
 
 // The factors of an edge's cost, each without unit.

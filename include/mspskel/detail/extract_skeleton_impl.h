@@ -107,6 +107,7 @@ inline ExtractOptions default_options() {
   // The repulsive force has a minimum in each lobe of a wide slice, the filled region's field one in the
   // middle.
   o.points.point.method = SkeletalPointMethod::kAreaField;
+  o.points.point.tolerance = 0.01;  // its square is the error
   o.points.holes = HoleSearch::kProbe;
   o.collapse.lambda = 0;
   o.collapse.angle_floor = 0.3;

@@ -74,8 +74,8 @@ inline void refine_slices(const SliceTracer& tracer, const SamplingOptions& samp
   const auto pattern = detail::cone_pattern(options);
   std::vector<std::array<std::int64_t, 2>> work(surface.vertex_count(), {0, 0});
   parallel_for(
-      surface.vertex_count(), "cone refinement", execution, [] { return Contour(); },
-      [&](Index v, Contour& scratch) {
+      surface.vertex_count(), "cone refinement", execution, [] { return 0; },
+      [&](Index v, int) {
         if (surface.vertex_halfedge[v] == kNone || (slices.valid[v] && slices.error[v] <= options.threshold))
           return;
         const VertexFrame frame = make_vertex_frame(surface, v);
@@ -87,7 +87,7 @@ inline void refine_slices(const SliceTracer& tracer, const SamplingOptions& samp
           const Vector3 across = frame.u - frame.u.dot(axis) * axis;
           detail::try_planes_round(tracer, v, axis, across.normalized(), sampling.planes, best);
         }
-        detail::store_slice(tracer, v, best, scratch, slices);
+        detail::store_slice(v, best, slices);
         slices.refined[v] = 1;
         work[v] = {best.slices, best.steps};
       });

@@ -44,36 +44,21 @@ inline void try_planes_round(const SliceTracer& tracer, Index v, const Vector3& 
   for (int i = 0; i < planes; ++i) best.try_plane(tracer, v, plane_normal(u, w, kPi * i / planes));
 }
 
-inline Vector3 contour_centre(const Contour& contour) {
-  Vector3 sum = Vector3::Zero();
-  double total = 0;
-  for (std::size_t i = 0, n = contour.point.size(); i < n; ++i) {
-    const Vector3 &a = contour.point[i], &b = contour.point[i + 1 == n ? 0 : i + 1];
-    const double length = (b - a).norm();
-    sum += 0.5 * length * (a + b);
-    total += length;
-  }
-  return sum / total;
-}
-
-// Stores the candidate as v's slice, with the facts that need the whole contour.
-inline void store_slice(const SliceTracer& tracer, Index v, const BestSlice& best, Contour& scratch,
-                        VertexSlices& slices) {
+// Stores the best slice as v's.
+inline void store_slice(Index v, const BestSlice& best, VertexSlices& slices) {
   if (best.shortest.start == kNone) return;
-  tracer.trace(best.shortest.start, Plane{best.normal, best.normal.dot(tracer.surface().position[v])}, v,
-               scratch);
   slices.perimeter[v] = best.shortest.perimeter;
   slices.normal[v] = best.normal;
-  slices.centre[v] = contour_centre(scratch);
-  slices.contour_points[v] = static_cast<Index>(scratch.point.size());
+  slices.start[v] = best.shortest.start;
   slices.valid[v] = 1;
 }
 
 }  // namespace detail
 
-// f(p) of thesis 3.1 at every vertex, over N planes that contain the vertex normal (Eq. 3.1). Errors are left
-// at 1 until compute_slice_errors. Cost: O(N · crossings) a vertex, about √V crossings a slice; OpenMP over
-// vertices, the result does not depend on the number of threads. Throws UsageError, Cancelled.
+// f(p) of thesis 3.1 at every vertex, over N planes that contain the vertex normal (Eq. 3.1). Errors and
+// what the whole contour tells are left to compute_slice_errors. Cost: O(N · crossings) a vertex, about √V
+// crossings a slice; OpenMP over vertices, the result does not depend on the number of threads. Throws
+// UsageError, Cancelled.
 inline VertexSlices compute_minimum_slice_perimeters(const SliceTracer& tracer,
                                                      const SamplingOptions& options,
                                                      const Execution& execution = {}) {
@@ -83,13 +68,13 @@ inline VertexSlices compute_minimum_slice_perimeters(const SliceTracer& tracer,
   slices.resize(surface.vertex_count());
   std::vector<std::array<std::int64_t, 2>> work(surface.vertex_count(), {0, 0});
   parallel_for(
-      surface.vertex_count(), "slices", execution, [] { return Contour(); },
-      [&](Index v, Contour& scratch) {
+      surface.vertex_count(), "slices", execution, [] { return 0; },
+      [&](Index v, int) {
         if (surface.vertex_halfedge[v] == kNone) return;
         const VertexFrame frame = make_vertex_frame(surface, v);
         detail::BestSlice best;
         detail::try_planes_round(tracer, v, frame.normal, frame.u, options.planes, best);
-        detail::store_slice(tracer, v, best, scratch, slices);
+        detail::store_slice(v, best, slices);
         work[v] = {best.slices, best.steps};
       });
   for (const auto& [planes, steps] : work) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "mspskel/base/axis_angle.h"
 #include "mspskel/base/progress.h"
 #include "mspskel/slice/vertex_slices.h"
 
@@ -25,11 +26,6 @@ struct SliceErrorOptions {
 
 namespace detail {
 
-// Plane normals have no sign, so the angle between two is at most a right angle.
-inline double axis_angle(const Vector3& a, const Vector3& b) {
-  return std::acos(std::min(1.0, std::abs(a.dot(b))));
-}
-
 // E_s(v) before normalisation, in radians (a sum of radians for kSum). The angle at a crossing is that at the
 // edge's ends, weighted by the crossing's position; an end without a slice leaves the word to the other.
 inline double raw_slice_error(const SurfaceSnapshot& surface, const VertexSlices& slices, Index v,
@@ -40,20 +36,28 @@ inline double raw_slice_error(const SurfaceSnapshot& surface, const VertexSlices
   double first = 0, previous = 0;
   Index counted = 0;
   bool at_vertex = false;
+  // Consecutive edges share an end, so each crossing brings one vertex: the angles to the slices at the ends,
+  // from the negative to the positive one.
+  Index end[2] = {kNone, kNone};
+  double weight_of[2] = {0, 0}, angle_to[2] = {0, 0};
   for (std::size_t i = 0; i < count; ++i) {
-    const Index a = surface.origin[contour.halfedge[i]], b = surface.target(contour.halfedge[i]);
-    const double wb = slices.valid[b] ? contour.weight[i] : 0.0,
-                 wa = slices.valid[a] ? 1.0 - contour.weight[i] : 0.0;
-    const double angle = wa + wb > 0 ? (wa * (wa > 0 ? axis_angle(n, slices.normal[a]) : 0.0) +
-                                        wb * (wb > 0 ? axis_angle(n, slices.normal[b]) : 0.0)) /
-                                           (wa + wb)
-                                     : kPi / 2;
+    const Index h = contour.halfedge[i], ends[2] = {surface.origin[h], surface.target(h)};
+    for (int k = 0; k < 2; ++k) {
+      if (ends[k] != end[k])
+        angle_to[k] = slices.valid[ends[k]] ? axis_angle(n, slices.normal[ends[k]]) : 0.0;
+      end[k] = ends[k];
+    }
+    weight_of[0] = slices.valid[end[0]] ? 1.0 - contour.weight[i] : 0.0;
+    weight_of[1] = slices.valid[end[1]] ? contour.weight[i] : 0.0;
+    const double total = weight_of[0] + weight_of[1];
+    const double angle =
+        total > 0 ? (weight_of[0] * angle_to[0] + weight_of[1] * angle_to[1]) / total : kPi / 2;
     // The contour meets every edge of its fan at v in v itself: one point of the slice.
-    if (b != v || !at_vertex) {
+    if (end[1] != v || !at_vertex) {
       sum += angle;
       ++counted;
     }
-    at_vertex = at_vertex || b == v;
+    at_vertex = at_vertex || end[1] == v;
     if (i > 0) {
       length = (contour.point[i] - contour.point[i - 1]).norm();
       weight += length * 0.5 * (angle + previous);
@@ -74,10 +78,22 @@ inline double raw_slice_error(const SurfaceSnapshot& surface, const VertexSlices
   return 0;
 }
 
+inline Vector3 contour_centre(const Contour& contour) {
+  Vector3 sum = Vector3::Zero();
+  double total = 0;
+  for (std::size_t i = 0, n = contour.point.size(); i < n; ++i) {
+    const Vector3 &a = contour.point[i], &b = contour.point[i + 1 == n ? 0 : i + 1];
+    const double length = (b - a).norm();
+    sum += 0.5 * length * (a + b);
+    total += length;
+  }
+  return sum / total;
+}
+
 }  // namespace detail
 
-// Fills slices.error and slices.area of every vertex with a slice. Cost: one trace a vertex. Throws
-// Cancelled.
+// Fills in the errors, areas, centres and numbers of points of every vertex with a slice. Cost: one trace a
+// vertex. Throws Cancelled.
 inline void compute_slice_errors(const SliceTracer& tracer, const SliceErrorOptions& options,
                                  VertexSlices& slices, const Execution& execution = {}) {
   const SurfaceSnapshot& surface = tracer.surface();
@@ -85,8 +101,11 @@ inline void compute_slice_errors(const SliceTracer& tracer, const SliceErrorOpti
   parallel_for(
       surface.vertex_count(), "slice error", execution, [] { return Contour(); },
       [&](Index v, Contour& contour) {
-        if (!slices.valid[v] || !tracer.shortest_contour(v, slices.normal[v], contour, steps[v])) return;
+        if (!slice_contour(tracer, slices, v, contour)) return;
+        steps[v] = static_cast<std::int64_t>(contour.point.size());
         slices.area[v] = contour.area;
+        slices.centre[v] = detail::contour_centre(contour);
+        slices.contour_points[v] = static_cast<Index>(contour.point.size());
         slices.error[v] = detail::raw_slice_error(surface, slices, v, contour, options.average);
       });
   double low = std::numeric_limits<double>::infinity(), high = -low;

@@ -14,10 +14,11 @@ namespace mspskel {
 struct VertexSlices {
   std::vector<double> perimeter;      // MSP(v)
   std::vector<Vector3> normal;        // N_S(v), unit, of either sign
-  std::vector<Vector3> centre;        // of the contour, by arc length
+  std::vector<Index> start;           // half-edge on which the contour's walk starts
+  std::vector<Vector3> centre;        // of the contour, by arc length; filled in with the errors
   std::vector<double> area;           // that the contour encloses; filled in with the errors
   std::vector<double> error;          // E_s(v), normalised to [0, 1] (Eq. 3.2, 4.3)
-  std::vector<Index> contour_points;  // crossings on the contour
+  std::vector<Index> contour_points;  // crossings on the contour; filled in with the errors
   std::vector<std::uint8_t> valid;
   std::vector<std::uint8_t> refined;  // the cone refinement looked for a better slice here
 
@@ -28,6 +29,7 @@ struct VertexSlices {
   void resize(Index n) {
     perimeter.assign(n, 0.0);
     normal.assign(n, Vector3::Zero());
+    start.assign(n, kNone);
     centre.assign(n, Vector3::Zero());
     area.assign(n, 0.0);
     error.assign(n, 1.0);
@@ -47,11 +49,13 @@ std::vector<Value> carried_over(const std::vector<Value>& source, const std::vec
   return values;
 }
 
-// The slices of a coarser surface for every vertex of the finer one that merged into one of its vertices.
+// The slices of a coarser surface for every vertex of the finer one that merged into one of its vertices. The
+// finer surface does not know their contours: no start.
 inline VertexSlices carried_over(const VertexSlices& coarse, const std::vector<Index>& coarse_vertex) {
   VertexSlices s;
   s.perimeter = carried_over(coarse.perimeter, coarse_vertex, 0.0);
   s.normal = carried_over(coarse.normal, coarse_vertex, Vector3(Vector3::Zero()));
+  s.start.assign(coarse_vertex.size(), kNone);
   s.centre = carried_over(coarse.centre, coarse_vertex, Vector3(Vector3::Zero()));
   s.area = carried_over(coarse.area, coarse_vertex, 0.0);
   s.error = carried_over(coarse.error, coarse_vertex, 1.0);
@@ -63,10 +67,16 @@ inline VertexSlices carried_over(const VertexSlices& coarse, const std::vector<I
   return s;
 }
 
-// The contour of v's slice; false if v has none.
+// The contour of v's slice, on the surface that was sliced; false if v has none. Cost: one trace.
 inline bool slice_contour(const SliceTracer& tracer, const VertexSlices& slices, Index v, Contour& contour) {
-  std::int64_t steps = 0;
-  return slices.valid[v] && tracer.shortest_contour(v, slices.normal[v], contour, steps);
+  if (!slices.valid[v]) return false;
+  const Vector3& n = slices.normal[v];
+  if (slices.start[v] == kNone) {
+    std::int64_t steps = 0;
+    return tracer.shortest_contour(v, n, contour, steps);
+  }
+  tracer.trace(slices.start[v], Plane{n, n.dot(tracer.surface().position[v])}, v, contour);
+  return true;
 }
 
 }  // namespace mspskel

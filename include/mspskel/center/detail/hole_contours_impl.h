@@ -33,15 +33,17 @@ inline void flatten_slice(const SurfaceSnapshot& surface, SliceRegion& slice) {
 inline bool may_have_holes(const SliceRegion& slice, const BoundingVolumeHierarchy& solid,
                            const Vector2& from, int rays) {
   constexpr double kMargin = 1e-6;  // in perimeters: the same contour, found by two ways
-  constexpr int kMaxRays = 64;
-  rays = std::clamp(rays, 1, kMaxRays);
-  std::array<double, kMaxRays> hit;
-  solid.ray_fan(slice.frame.to_space(from), slice.frame.u, slice.frame.v, rays, hit.data());
   const double unit = slice.region.perimeter();
-  for (int k = 0; k < rays; ++k) {
+  const Vector3 origin = slice.frame.to_space(from);
+  const auto free = [&](const Vector2& direction) {
+    return unit * (slice.region.first_hit(from, unit * direction) - kMargin);
+  };
+  for (int k = 0; k < rays / 2; ++k) {
     const double angle = 2 * kPi * k / rays;
-    const double own = unit * slice.region.first_hit(from, unit * Vector2(std::cos(angle), std::sin(angle)));
-    if (hit[static_cast<std::size_t>(k)] < own - kMargin * unit) return true;
+    const Vector2 ahead(std::cos(angle), std::sin(angle));
+    const double back = free(-ahead), length = back + free(ahead);
+    const Vector3 axis = ahead.x() * slice.frame.u + ahead.y() * slice.frame.v;
+    if (solid.first_hit(origin - back * axis, axis, length)) return true;
   }
   return false;
 }
@@ -73,11 +75,15 @@ inline std::vector<Index> crossings_near(const SliceRegion& slice, const Surface
   return starts;
 }
 
-// Whether most of a polygon lies in the region: contours of a plane may touch, but never cross.
+// Whether most of a polygon lies in the region, by a few of its points: contours of a plane may touch, but
+// never cross.
 inline bool mostly_inside(const std::vector<Vector2>& polygon, const PlanarRegion& region) {
+  constexpr std::size_t kPoints = 9;
+  const std::size_t points = std::min(kPoints, polygon.size());
   std::size_t inside = 0;
-  for (const Vector2& p : polygon) inside += region.contains(p) ? 1 : 0;
-  return 2 * inside > polygon.size();
+  for (std::size_t i = 0; i < points; ++i)
+    inside += region.contains(polygon[i * polygon.size() / points]) ? 1 : 0;
+  return 2 * inside > points;
 }
 
 }  // namespace detail::slice_centre

@@ -155,17 +155,23 @@ inline double PlanarRegion::distance(const Vector2& p) const {
 inline double PlanarRegion::first_hit(const Vector2& p, const Vector2& d) const {
   // Segments are closed with a margin, or a step might slip out between two of them.
   constexpr double kMargin = 1e-12;
+  using Block = Eigen::Array<double, kBlock, 1>;
+  using Map = Eigen::Map<const Block>;
   double best = 2.0;
-  for (const Ring& ring : rings_) {
-    const double *x = x_.data() + ring.begin, *y = y_.data() + ring.begin;
-    for (Index i = 0; i < ring.segments; ++i) {
-      const double ax = x[i] - p.x(), ay = y[i] - p.y(), ex = x[i + 1] - x[i], ey = y[i + 1] - y[i];
-      const double scale = 1.0 / (d.x() * ey - d.y() * ex);
-      const double t = (ax * ey - ay * ex) * scale, s = (ax * d.y() - ay * d.x()) * scale;
-      const bool hit = (t > 0) & (t <= 1) & (s >= -kMargin) & (s <= 1 + kMargin);
-      best = std::min(best, hit ? t : 2.0);
+  for (const Ring& ring : rings_)
+    for (Index i = ring.begin; i < ring.begin + ring.segments; i += kBlock) {
+      const double *x = x_.data() + i, *y = y_.data() + i;
+      // Few segments meet the line: their ends lie on both sides of it, or within the margin.
+      const Block from = (Map(x) - p.x()) * d.y() - (Map(y) - p.y()) * d.x(),
+                  to = (Map(x + 1) - p.x()) * d.y() - (Map(y + 1) - p.y()) * d.x();
+      if (!((from * to - 2 * kMargin * (from - to).square()).minCoeff() <= 0)) continue;
+      for (Index k = 0; k < kBlock; ++k) {
+        const double ax = x[k] - p.x(), ay = y[k] - p.y(), ex = x[k + 1] - x[k], ey = y[k + 1] - y[k];
+        const double scale = 1.0 / (d.x() * ey - d.y() * ex);
+        const double t = (ax * ey - ay * ex) * scale, s = (ax * d.y() - ay * d.x()) * scale;
+        if (t > 0 && t <= 1 && s >= -kMargin && s <= 1 + kMargin) best = std::min(best, t);
+      }
     }
-  }
   return best;
 }
 

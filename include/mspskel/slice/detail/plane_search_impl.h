@@ -4,12 +4,12 @@
 
 namespace mspskel::detail {
 
-// Planes closer than 4 degrees are left to the compass.
+// Planes closer than 4 degrees are left to turn_downhill.
 inline constexpr double kSamePlane = 0.9976;
-// A neighbour's plane is tried unless its slice there is longer than the best here by more than this factor.
-inline constexpr double kOfferSlack = 1.02;
 // A gain of less than 0.2 % is not worth the planes that every change makes the neighbours try.
 inline constexpr double kLeastGain = 0.998;
+// A turn has to promise half of that.
+inline constexpr double kLeastPromise = 0.001;
 
 struct PlaneOffer {
   double objective;
@@ -20,8 +20,26 @@ struct PlaneOffer {
 struct RoundResult {
   BestSlice slice;
   double objective = std::numeric_limits<double>::infinity();
-  bool visited = true;
 };
+
+template <class Visit>
+void for_each_neighbour(const SurfaceSnapshot& surface, Index v, Visit&& visit) {
+  const Index first = surface.vertex_halfedge[v];
+  if (first == kNone) return;
+  Index h = first;
+  do {
+    visit(surface.target(h));
+    h = surface.next_outgoing(h);
+  } while (h != first);
+}
+
+// A vertex whose area no neighbour exceeds.
+inline bool is_seed(const SurfaceSnapshot& surface, Index v) {
+  bool seed = surface.vertex_halfedge[v] != kNone;
+  const double most = (1 + 1e-9) * surface.vertex_area[v];  // on regular meshes equals differ by rounding
+  for_each_neighbour(surface, v, [&](Index w) { seed = seed && surface.vertex_area[w] <= most; });
+  return seed;
+}
 
 // What the vertices know after a round. best[v] holds v's slice and the work so far.
 struct SearchState {
@@ -29,23 +47,31 @@ struct SearchState {
   std::vector<double> objective;
   std::vector<int> changed_in;  // the last round that gave v another plane
   std::vector<std::uint8_t> visited;
-  Index changed, unvisited;
+  std::vector<Index> active;  // the vertices of the next round, ascending
+  Index unvisited = 0;
 
-  explicit SearchState(Index count)
-      : best(count),
-        objective(count, std::numeric_limits<double>::infinity()),
-        changed_in(count, -2),
-        visited(count, 0),
-        changed(count),
-        unvisited(count) {}
+  // Seeds are active in round 0.
+  explicit SearchState(const SurfaceSnapshot& surface)
+      : best(surface.vertex_count()),
+        objective(surface.vertex_count(), std::numeric_limits<double>::infinity()),
+        changed_in(surface.vertex_count(), -2),
+        visited(surface.vertex_count(), 0),
+        called_(surface.vertex_count(), 0) {
+    for (Index v = 0; v < surface.vertex_count(); ++v) {
+      if (is_seed(surface, v)) active.push_back(v);
+      unvisited += surface.vertex_halfedge[v] != kNone;
+    }
+  }
 
   bool has_slice(Index v) const { return best[v].shortest.start != kNone; }
 
-  // Takes over what the round found.
-  void advance(const std::vector<RoundResult>& found, int round) {
-    changed = unvisited = 0;
-    for (std::size_t v = 0; v < best.size(); ++v) {
-      const RoundResult& result = found[v];
+  // Takes over what the round found at the active vertices. The neighbours of those that have changed or have
+  // been visited for the first time are the next ones.
+  void advance(const SurfaceSnapshot& surface, const std::vector<RoundResult>& found, int round) {
+    std::vector<Index> next;
+    for (std::size_t i = 0; i < active.size(); ++i) {
+      const Index v = active[i];
+      const RoundResult& result = found[i];
       best[v].slices += result.slice.slices;
       best[v].steps += result.slice.steps;
       const bool better = result.slice.shortest.start != kNone;
@@ -55,22 +81,22 @@ struct SearchState {
         objective[v] = result.objective;
         changed_in[v] = round;
       }
-      if (better || (result.visited && !visited[v])) ++changed;
-      visited[v] = result.visited;
-      if (!result.visited) ++unvisited;
+      const bool first_visit = !visited[v];
+      if (first_visit) visited[v] = 1, --unvisited;
+      for_each_neighbour(surface, v, [&](Index w) {
+        if (called_[w] || !(better || (first_visit && !visited[w]))) return;
+        called_[w] = 1;
+        next.push_back(w);
+      });
     }
+    for (const Index v : next) called_[v] = 0;
+    std::sort(next.begin(), next.end());
+    active.swap(next);
   }
-};
 
-template <class Visit>
-void for_each_neighbour(const SurfaceSnapshot& surface, Index v, Visit&& visit) {
-  const Index first = surface.vertex_halfedge[v];
-  Index h = first;
-  do {
-    visit(surface.target(h));
-    h = surface.next_outgoing(h);
-  } while (h != first);
-}
+ private:
+  std::vector<std::uint8_t> called_;
+};
 
 // The search at one vertex. A plane is its unit normal m; its tilt is asin|m·n_p|.
 class PlaneSearch {
@@ -80,7 +106,7 @@ class PlaneSearch {
       : tracer_(tracer),
         options_(options),
         v_(v),
-        frame_(make_vertex_frame(tracer.surface(), v)),
+        axis_(tracer.surface().normal[v]),
         max_sine_(std::sin(options.max_tilt * kPi / 180)),
         objective_(objective) {
     best_.normal = normal;
@@ -94,7 +120,7 @@ class PlaneSearch {
 
   // True if the plane is allowed and better than the best so far.
   bool try_plane(const Vector3& m) {
-    const double sine = std::abs(m.dot(frame_.normal));
+    const double sine = std::abs(m.dot(axis_));
     if (sine > max_sine_ + 1e-12) return false;
     const double cosine = tilt_factor(options_.objective, sine);
     ++best_.slices;
@@ -107,40 +133,40 @@ class PlaneSearch {
   }
 
   void try_angles() {
+    const VertexFrame frame = make_vertex_frame(tracer_.surface(), v_);
     for (int i = 0; i < options_.angles; ++i)
-      try_plane(plane_normal(frame_.u, frame_.v, kPi * i / options_.angles));
+      try_plane(plane_normal(frame.u, frame.v, kPi * i / options_.angles));
   }
 
   // Normals spread evenly over the band of the sphere that the tilt allows. The zero direction differs from
   // vertex to vertex, so together neighbours look at many more planes than one of them.
   void try_spread() {
     constexpr double kGolden = 0.6180339887498949;
+    const VertexFrame frame = make_vertex_frame(tracer_.surface(), v_);
     for (int i = 0; i < options_.spread; ++i) {
       const double sine = max_sine_ * (i + 0.5) / options_.spread;
       const Vector3 m =
-          std::sqrt(1 - sine * sine) * plane_normal(frame_.u, frame_.v, 2 * kPi * kGolden * (i + 0.5)) +
-          sine * frame_.normal;
+          std::sqrt(1 - sine * sine) * plane_normal(frame.u, frame.v, 2 * kPi * kGolden * (i + 0.5)) +
+          sine * axis_;
       if (!knows(m)) try_plane(m);
     }
   }
 
-  // Turns about the vertex normal and tilts towards it by ± step; halves the step when nothing helps.
-  void compass(double step_degrees) {
+  // Turns the plane down the slope of the objective, by the angle at which the slice of a tube would be at
+  // its least, or half of it, as long as that helps.
+  void turn_downhill() {
+    constexpr int kMostTurns = 20;
     if (best_.shortest.start == kNone) return;
-    const double least = options_.last_step * kPi / 180;
-    int helped = -1;
-    for (double step = step_degrees * kPi / 180; step >= least * (1 - 1e-9);) {
-      const Vector3 m = best_.normal;
-      const Vector3 turn = frame_.normal.cross(m).normalized(), tilt = m.cross(turn).normalized();
-      const Vector3 moves[4] = {turn, -turn, tilt, -tilt};
-      const int last = helped;
-      helped = -1;
-      for (int i = 0; i < 4 && helped < 0; ++i) {
-        const int k = last < 0 ? i : (last + i) % 4;  // go on in the direction that helped
-        if (last >= 0 && k == (last ^ 1)) continue;   // never straight back
-        if (try_plane(std::cos(step) * m + std::sin(step) * moves[k])) helped = k;
-      }
-      if (helped < 0) step /= 2;
+    bool turned = true;
+    for (int i = 0; i < kMostTurns && turned; ++i) {
+      const Vector3 m = best_.normal, slope = objective_slope();
+      const double steepness = slope.norm(), relative = steepness / objective_;
+      const double angle = std::min(std::atan(relative), options_.max_turn * kPi / 180);
+      if (!(0.5 * angle * relative > kLeastPromise)) return;
+      const auto turn = [&](double a) {
+        return try_plane(std::cos(a) * m - std::sin(a) / steepness * slope);
+      };
+      turned = turn(angle) || turn(angle / 2);
     }
   }
 
@@ -150,21 +176,25 @@ class PlaneSearch {
   }
 
  private:
+  // How the objective of the best slice changes with its unit normal.
+  Vector3 objective_slope() {
+    const Vector3& m = best_.normal;
+    Vector3 slope = tracer_.slope(best_.shortest.start, v_, m, best_.steps);
+    if (options_.objective == SliceObjective::kPerimeterOverTilt) {
+      const double sine = m.dot(axis_), cosine = tilt_factor(options_.objective, sine);
+      slope = slope / cosine + objective_ * sine / (cosine * cosine) * axis_;
+    }
+    return slope - slope.dot(m) * m;
+  }
+
   const SliceTracer& tracer_;
   const SearchOptions& options_;
   Index v_;
-  VertexFrame frame_;
+  Vector3 axis_;  // the vertex normal
   double max_sine_;
   BestSlice best_;
   double objective_;
 };
-
-inline bool is_seed(const SurfaceSnapshot& surface, Index v) {
-  bool seed = true;
-  const double most = (1 + 1e-9) * surface.vertex_area[v];  // on regular meshes equals differ by rounding
-  for_each_neighbour(surface, v, [&](Index w) { seed = seed && surface.vertex_area[w] <= most; });
-  return seed;
-}
 
 // Planes of v's neighbours that v has not seen and that promise a gain, the most promising first.
 inline void collect_offers(const SurfaceSnapshot& surface, const SearchState& state, int round, Index v,
@@ -182,7 +212,7 @@ inline void collect_offers(const SurfaceSnapshot& surface, const SearchState& st
 // The offers to v, each plane once.
 inline void try_offers(const std::vector<PlaneOffer>& offers, PlaneSearch& search) {
   for (auto offer = offers.begin(); offer != offers.end(); ++offer) {
-    if (offer->objective > kOfferSlack * search.objective()) return;
+    if (offer->objective > search.objective()) return;
     const bool repeated = std::any_of(offers.begin(), offer, [&](const PlaneOffer& other) {
       return std::abs(other.normal.dot(offer->normal)) > kSamePlane;
     });
@@ -194,24 +224,14 @@ inline void try_offers(const std::vector<PlaneOffer>& offers, PlaneSearch& searc
 inline RoundResult search_round(const SliceTracer& tracer, const SearchOptions& options,
                                 const SearchState& state, int round, Index v,
                                 std::vector<PlaneOffer>& offers) {
-  const SurfaceSnapshot& surface = tracer.surface();
-  RoundResult result;
-  if (surface.vertex_halfedge[v] == kNone) return result;
   const bool first_visit = !state.visited[v];
-  if (first_visit) {
-    result.visited = round == 0 && is_seed(surface, v);
-    for_each_neighbour(surface, v, [&](Index w) { result.visited = result.visited || state.visited[w]; });
-    if (!result.visited) return result;
-  }
   PlaneSearch search(tracer, options, v, state.best[v].normal, state.objective[v]);
-  collect_offers(surface, state, round, v, offers);
+  collect_offers(tracer.surface(), state, round, v, offers);
   try_offers(offers, search);
   if (round == 0) search.try_angles();
   if (first_visit) search.try_spread();
-  search.compass(round == 0 ? options.first_step : options.last_step);
-  result.slice = search.best();
-  result.objective = search.objective();
-  return result;
+  search.turn_downhill();
+  return {search.best(), search.objective()};
 }
 
 }  // namespace mspskel::detail

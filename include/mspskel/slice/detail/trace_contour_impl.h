@@ -5,7 +5,9 @@ namespace mspskel {
 inline SliceTracer::SliceTracer(const SurfaceSnapshot& surface) : surface_(surface) {
   step_.resize(surface.origin.size());
   for (Index h = 0; h < surface.halfedge_count(); ++h)
-    step_[h] = {surface.apex(h), surface.twin[surface.prev(h)], surface.twin[surface.next(h)], 0};
+    step_[h] = {surface.apex(h),
+                {surface.twin[surface.next(h)], surface.twin[surface.prev(h)]},
+                SurfaceSnapshot::face(h)};
   point_.resize(surface.position.size());
   for (std::size_t v = 0; v < point_.size(); ++v) {
     const Vector3& p = surface.position[v];
@@ -27,11 +29,11 @@ void SliceTracer::walk(Index start, const Side& side, Visit&& visit) const {
     const Step& s = step_[h];
     const double d = side(point_[s.apex], s.apex);
     if (d >= 0) {
-      h = s.if_positive;
+      h = s.exit[1];
       positive = d;
       to = s.apex;
     } else {
-      h = s.if_negative;
+      h = s.exit[0];
       negative = d;
       from = s.apex;
     }
@@ -39,37 +41,162 @@ void SliceTracer::walk(Index start, const Side& side, Visit&& visit) const {
   }
 }
 
+namespace detail::two_walks {
+
+// Two doubles side by side, and a mask of as many: all ones or zero.
+using Lanes = double __attribute__((vector_size(16)));
+using LaneMask = std::int64_t __attribute__((vector_size(16)));
+
+struct Lanes3 {
+  Lanes x, y, z;
+};
+inline Lanes3 operator-(const Lanes3& a, const Lanes3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Lanes dot(const Lanes3& a, const Lanes3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Lanes3 cross(const Lanes3& a, const Lanes3& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline Lanes3 scaled(Lanes s, const Lanes3& a) { return {s * a.x, s * a.y, s * a.z}; }
+inline Lanes3 select(LaneMask m, const Lanes3& a, const Lanes3& b) {
+  return {m ? a.x : b.x, m ? a.y : b.y, m ? a.z : b.z};
+}
+inline Lanes norm(const Lanes3& a) {
+  const Lanes square = dot(a, a);
+  return Lanes{std::sqrt(square[0]), std::sqrt(square[1])};
+}
+inline double sum(Lanes a) { return a[0] + a[1]; }
+inline Vector3 sum(const Lanes3& a) { return {sum(a.x), sum(a.y), sum(a.z)}; }
+inline Vector3 lane(const Lanes3& a, int k) { return {a.x[k], a.y[k], a.z[k]}; }
+
+}  // namespace detail::two_walks
+
+// Two walkers that leave the start in opposite directions, one a lane, until they stand in the same face. A
+// walk waits for memory and for the side of the next vertex, which no processor predicts; two of them wait
+// together, and selects take the place of branches.
+class SliceTracer::PairWalk {
+ public:
+  using Lanes = detail::two_walks::Lanes;
+  using Lanes3 = detail::two_walks::Lanes3;
+
+  PairWalk(const SliceTracer& tracer, Index start, const Side& side)
+      : step_(tracer.step_.data()),
+        point_(tracer.point_.data()),
+        side_(side),
+        s_(step_ + start),
+        t_(step_ + tracer.surface_.twin[start]) {
+    const Index a = tracer.surface_.origin[start], b = tracer.surface_.target(start);
+    negative_ = load(a, a);
+    positive_ = load(b, b);
+    below_ = Lanes{} + side(point_[a], a);
+    above_ = Lanes{} + side(point_[b], b);
+  }
+
+  // The edges on which the walkers stand, from the negative to the positive end; the difference of the signed
+  // distances of their ends; where the plane cuts them.
+  Lanes3 edge() const { return positive_ - negative_; }
+  Lanes rise() const { return above_ - below_; }
+  Lanes3 crossing() const {
+    const Lanes w = below_ / (below_ - above_);
+    const Lanes3 e = edge();
+    return {negative_.x + w * e.x, negative_.y + w * e.y, negative_.z + w * e.z};
+  }
+
+  // Both go on to their next edge. False once they stand in the same face, or on the same edge.
+  bool advance() {
+    const Lanes3 apex = load(s_->apex, t_->apex);
+    Lanes d = side_.x * apex.x + side_.y * apex.y + side_.z * apex.z - side_.offset;
+    if (s_->apex == side_.through) d[0] = 0;
+    if (t_->apex == side_.through) d[1] = 0;
+    const detail::two_walks::LaneMask is_positive = d >= Lanes{};
+    const Index face = t_->face;
+    // Seen from the other direction the negative side is where the positive one was.
+    s_ = step_ + s_->exit[is_positive[0] & 1];
+    t_ = step_ + t_->exit[~is_positive[1] & 1];
+    negative_ = select(is_positive, negative_, apex);
+    positive_ = select(is_positive, apex, positive_);
+    below_ = is_positive ? below_ : d;
+    above_ = is_positive ? d : above_;
+    return s_->face != t_->face && s_->face != face;
+  }
+
+ private:
+  Lanes3 load(Index a, Index b) const {
+    const Point &p = point_[a], &q = point_[b];
+    return {Lanes{p.x, q.x}, Lanes{p.y, q.y}, Lanes{p.z, q.z}};
+  }
+
+  const Step* step_;
+  const Point* point_;
+  Side side_;
+  const Step *s_, *t_;
+  Lanes3 negative_, positive_;  // ends of the edges
+  Lanes below_, above_;         // their signed distances
+};
+
 // Length and signed area (oriented by the surface) of the contour; length = infinity once it cannot stay
 // below `bound`.
 inline SliceTracer::Measure SliceTracer::measure(Index start, const Side& side, double bound,
                                                  std::int64_t& steps) const {
-  double x0 = 0, y0 = 0, z0 = 0, x = 0, y = 0, z = 0, length = 0, ax = 0, ay = 0, az = 0;
-  std::int64_t count = 0;
-  bool complete = true;
-  walk(start, side, [&](Index, Index from, Index to, double negative, double positive) {
-    const Point &p = point_[from], &q = point_[to];
-    const double w = negative / (negative - positive);
-    const double cx = p.x + w * (q.x - p.x), cy = p.y + w * (q.y - p.y), cz = p.z + w * (q.z - p.z);
-    if (count++ == 0) {
-      x0 = x = cx, y0 = y = cy, z0 = z = cz;
-      return true;
-    }
-    const double dx = cx - x, dy = cy - y, dz = cz - z, rx = cx - x0, ry = cy - y0, rz = cz - z0;
-    length += std::sqrt(dx * dx + dy * dy + dz * dz);
-    ax += ry * dz - rz * dy, ay += rz * dx - rx * dz, az += rx * dy - ry * dx;
-    x = cx, y = cy, z = cz;
-    if (length >= bound || (count % 8 == 0 && length + std::sqrt(rx * rx + ry * ry + rz * rz) >= bound)) {
-      complete = false;
-      return false;
-    }
-    return true;
-  });
-  steps += count;
-  if (!complete) return {std::numeric_limits<double>::infinity(), 0.0};
-  const double rx = x - x0, ry = y - y0, rz = z - z0;
+  using namespace detail::two_walks;
+  PairWalk walk(*this, start, side);
+  const Lanes3 first = walk.crossing();
+  Lanes3 last = first, area = {};
+  Lanes length = {};
+  const auto with_chord = [&] { return sum(length) + (lane(last, 0) - lane(last, 1)).norm(); };
+  bool apart = true;
+  Index count = 0;
+  for (const Index limit = surface_.face_count(); apart && count < limit; ++count) {
+    apart = walk.advance();
+    const Lanes3 point = walk.crossing(), move = point - last, turn = cross(point - first, move);
+    length += norm(move);
+    area.x += turn.x, area.y += turn.y, area.z += turn.z;
+    last = point;
+    if (count % 4 == 0 && with_chord() >= bound) break;
+  }
+  steps += 2 * count + 1;
+  const double perimeter = with_chord();
+  if (apart || perimeter >= bound) return {std::numeric_limits<double>::infinity(), 0.0};
+  const Vector3 o = lane(first, 0),
+                twice = lane(area, 0) - lane(area, 1) + (lane(last, 0) - o).cross(lane(last, 1) - o);
   // The walk keeps the positive side on its right as seen from outside, which is clockwise about the plane's
   // normal round material.
-  return {length + std::sqrt(rx * rx + ry * ry + rz * rz), -0.5 * (ax * side.x + ay * side.y + az * side.z)};
+  return {perimeter, -0.5 * (twice.x() * side.x + twice.y() * side.y + twice.z() * side.z)};
+}
+
+// A crossing x moves along its edge e by −(x − p)·dn / (rise along e), and the perimeter changes by that
+// times e · (unit tangent before − unit tangent after).
+inline Vector3 SliceTracer::slope(Index start, Index v, const Vector3& normal, std::int64_t& steps) const {
+  using namespace detail::two_walks;
+  constexpr double kTiny = 1e-300;  // no tangent where two crossings coincide
+  PairWalk walk(*this, start, side_through(v, normal));
+  const Point& q = point_[v];
+  const Lanes3 p{Lanes{} + q.x, Lanes{} + q.y, Lanes{} + q.z};
+  Lanes3 last = walk.crossing(), before = {}, gradient = {};
+  const auto add = [&](const Lanes3& edge, Lanes rise, const Lanes3& after) {
+    const Lanes3 change = scaled(dot(after - before, edge) / rise, last - p);
+    gradient.x += change.x, gradient.y += change.y, gradient.z += change.z;
+  };
+  bool apart = true;
+  for (Index limit = surface_.face_count(); apart && limit > 0; --limit) {
+    const Lanes3 edge = walk.edge();
+    const Lanes rise = walk.rise();
+    apart = walk.advance();
+    const Lanes3 point = walk.crossing(), move = point - last,
+                 after = scaled(1.0 / (norm(move) + kTiny), move);
+    add(edge, rise, after);
+    last = point;
+    before = after;
+    steps += 2;
+  }
+  const Lanes3 gap = {{last.x[1] - last.x[0], last.x[0] - last.x[1]},
+                      {last.y[1] - last.y[0], last.y[0] - last.y[1]},
+                      {last.z[1] - last.z[0], last.z[0] - last.z[1]}};
+  add(walk.edge(), walk.rise(), scaled(1.0 / (norm(gap) + kTiny), gap));
+  return sum(gradient);
+}
+
+inline SliceTracer::Side SliceTracer::side_through(Index v, const Vector3& normal) const {
+  const Point& p = point_[v];
+  return {normal.x(), normal.y(), normal.z(), normal.x() * p.x + normal.y() * p.y + normal.z() * p.z, v};
 }
 
 inline SliceTracer::Shortest SliceTracer::shortest_through(Index v, const Vector3& normal, double bound,
@@ -78,9 +205,7 @@ inline SliceTracer::Shortest SliceTracer::shortest_through(Index v, const Vector
   const Index first = surface_.vertex_halfedge[v];
   if (first == kNone) return best;
   best.perimeter = bound;
-  const Point& p = point_[v];
-  const Side side{normal.x(), normal.y(), normal.z(), normal.x() * p.x + normal.y() * p.y + normal.z() * p.z,
-                  v};
+  const Side side = side_through(v, normal);
   // Each change from + to - counter-clockwise round v starts one contour, out across the edge opposite to v.
   Index h = first;
   bool positive = side(point_[surface_.target(h)], surface_.target(h)) >= 0;
