@@ -90,10 +90,13 @@ class March {
       for (int j = i + 1; j < 4; ++j) swaps += t[i] > t[j];
     if (swaps % 2 == 1) std::swap(inside == 1 ? t[2] : t[0], inside == 1 ? t[3] : t[1]);
     const auto cut = [&](int i, int j) { return vertex(low, value, corners[t[i]], corners[t[j]]); };
+    // Cuts make vertices, so their order is written down: as arguments it would be the compiler's.
     if (inside == 1) {
-      soup_.add_triangle(cut(0, 1), cut(0, 2), cut(0, 3));
+      const Index ad = cut(0, 3), ac = cut(0, 2), ab = cut(0, 1);
+      soup_.add_triangle(ab, ac, ad);
     } else if (inside == 3) {
-      soup_.add_triangle(cut(0, 3), cut(1, 3), cut(2, 3));
+      const Index cd = cut(2, 3), bd = cut(1, 3), ad = cut(0, 3);
+      soup_.add_triangle(ad, bd, cd);
     } else {
       const Index ac = cut(0, 2), ad = cut(0, 3), bd = cut(1, 3), bc = cut(1, 2);
       soup_.add_triangle(ac, ad, bd);

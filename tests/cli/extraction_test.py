@@ -163,8 +163,9 @@ class Terminals(ProgramTest):
             main, terminal = pty.openpty()
         except OSError as error:
             self.skipTest(f"no terminals here: {error}")
+        usual = {name: value for name, value in os.environ.items() if name != "NO_COLOR"}
         process = subprocess.Popen([PROGRAM, *map(str, arguments)], cwd=self.folder, stderr=terminal,
-                                   env={"PATH": os.environ["PATH"], "TERM": "xterm", **environment})
+                                   env={**usual, "TERM": "xterm", **environment})
         os.close(terminal)
         text = b""
         while True:
