@@ -118,7 +118,10 @@ TEST_CASE("filtering random graphs keeps components, cycles and the map") {
   for (int round = 0; round < 40; ++round) {
     Builder b;
     const int n = 20;
-    for (int i = 0; i < n; ++i) b.node(uniform(random), uniform(random), 0.5 * uniform(random));
+    for (int i = 0; i < n; ++i) {
+      const Vector3 p{uniform(random), uniform(random), 0.5 * uniform(random)};
+      b.node(p.x(), p.y(), p.z());
+    }
     for (Index i = 1; i < n; ++i)
       if (i != n / 2) b.edge(static_cast<Index>(random() % static_cast<unsigned>(i)), i);
     Index genus = 0;

@@ -90,9 +90,10 @@ TEST_CASE("the order of merges does not matter") {
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   std::vector<MergingSet> sets;
   for (int i = 0; i < 12; ++i) {
-    MergingVertex v = vertex({uniform(random), uniform(random), uniform(random)}, uniform(random),
-                             Vector3(uniform(random), uniform(random), 0.1).normalized(),
-                             i % 4 == 0 ? 1.0 : uniform(random));
+    const Vector3 position{uniform(random), uniform(random), uniform(random)};
+    const Vector3 normal{uniform(random), uniform(random), 0.1};
+    const double perimeter = uniform(random), error = uniform(random);
+    MergingVertex v = vertex(position, perimeter, normal.normalized(), i % 4 == 0 ? 1.0 : error);
     v.valid = i % 5 != 0;
     sets.emplace_back(v);
   }

@@ -23,9 +23,9 @@ SkeletonMesh random_skeleton_mesh(const SurfaceSnapshot& surface, unsigned seed,
   mesh.position = surface.position;
   mesh.area = surface.vertex_area;
   for (Vector3& p : mesh.position) {
-    p += spread * Vector3(uniform(random), uniform(random), uniform(random));
+    p += spread * Vector3{uniform(random), uniform(random), uniform(random)};
     mesh.perimeter.push_back(0.1 + uniform(random));
-    mesh.normal.push_back(Vector3(uniform(random), uniform(random), uniform(random) + 0.1).normalized());
+    mesh.normal.push_back(Vector3{uniform(random), uniform(random), uniform(random) + 0.1}.normalized());
     mesh.error.push_back(uniform(random));
     mesh.valid.push_back(random() % 10 != 0);
   }

@@ -51,7 +51,7 @@ std::vector<MergingVertex> random_vertices(const Mesh& mesh) {
     MergingVertex vertex;
     vertex.position = to_vector3(mesh.point(v));
     vertex.perimeter = 1 + uniform(random);
-    vertex.normal = Vector3(uniform(random), uniform(random), uniform(random) + 0.01).normalized();
+    vertex.normal = Vector3{uniform(random), uniform(random), uniform(random) + 0.01}.normalized();
     vertex.error = uniform(random);
     vertex.area = 0.5 + uniform(random);
     vertices.push_back(vertex);

@@ -19,7 +19,7 @@ std::vector<MergingSet> random_sets(Index count, unsigned seed) {
     MergingVertex vertex;
     vertex.position = {uniform(random), uniform(random), uniform(random)};
     vertex.perimeter = 0.1 + uniform(random);
-    vertex.normal = Vector3(uniform(random) - 0.5, uniform(random) - 0.5, uniform(random) - 0.5).normalized();
+    vertex.normal = Vector3{uniform(random) - 0.5, uniform(random) - 0.5, uniform(random) - 0.5}.normalized();
     vertex.error = uniform(random);
     vertex.area = uniform(random);
     vertex.valid = v % 7 != 3;
@@ -155,8 +155,9 @@ TEST_CASE("random complexes with random cocycles end with b1 = rank") {
   const auto variants = option_variants();
   for (unsigned round = 0; round < 60; ++round) {
     const Index vertices = 4 + static_cast<Index>(random() % 20);
-    const SkeletonComplex complex =
-        random_complex(random, vertices, static_cast<int>(random() % 60), static_cast<Index>(random() % 4));
+    const int triangles = static_cast<int>(random() % 60);
+    const Index genus = static_cast<Index>(random() % 4);
+    const SkeletonComplex complex = random_complex(random, vertices, triangles, genus);
     collapse_checked(complex, random_sets(vertices, round), variants[round % variants.size()]);
   }
 }

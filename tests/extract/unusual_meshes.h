@@ -53,8 +53,10 @@ inline PolygonSoup scattered_tetrahedra(Index count) {
   Random random(7);
   PolygonSoup soup;
   const PolygonSoup one = to_soup(tetrahedron());
-  for (Index i = 0; i < count; ++i)
-    append(soup, shifted(one, random.uniform(1e-4, 0.3), 4 * random.in_ball()));
+  for (Index i = 0; i < count; ++i) {
+    const double size = random.uniform(1e-4, 0.3);
+    append(soup, shifted(one, size, 4 * random.in_ball()));
+  }
   return soup;
 }
 

@@ -140,7 +140,8 @@ inline ArcGraph random_arc_graph(Random& random, double radius = 1.0,
   for (Index a = 0; a < arcs; ++a) {
     std::vector<Vector3> between;
     for (Index i = random.below(6); i > 0; --i) between.push_back(place());
-    add_arc(graph, random.below(hubs), random.below(hubs), between);
+    const Index from = random.below(hubs), to = random.below(hubs);
+    add_arc(graph, from, to, between);
   }
   for (Index v = 0; v < 100; ++v) {
     const bool on_arc = arcs > 0 && random.below(3) > 0;

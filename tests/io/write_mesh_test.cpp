@@ -19,8 +19,10 @@ PolygonSoup random_soup(unsigned seed, Index largest_polygon) {
   const auto below = [&](std::uint64_t n) { return static_cast<Index>(random() % n); };
   for (int i = 0; i < 300; ++i) {
     Vector3 p;
-    for (int k = 0; k < 3; ++k)
-      p[k] = std::ldexp(std::uniform_real_distribution<double>(-1, 1)(random), below(2000) - 1000);
+    for (int k = 0; k < 3; ++k) {
+      const double mantissa = std::uniform_real_distribution<double>(-1, 1)(random);
+      p[k] = std::ldexp(mantissa, below(2000) - 1000);
+    }
     soup.points.push_back(p);
   }
   soup.points.push_back({0.1, -0.0, 5e-324});

@@ -221,7 +221,9 @@ inline DefaultMesh scaled(const DefaultMesh& mesh, double factor) {
   return moved(mesh, [&](const Vector3& p) { return Vector3(factor * p); });
 }
 
-// SplitMix64: the same numbers everywhere, unlike std::shuffle and the distributions of <random>.
+// SplitMix64: the same numbers everywhere, unlike std::shuffle and the distributions of <random>. So that
+// each goes to the same place everywhere, two calls stand in braces or statements: the order of arguments is
+// the compiler's choice.
 struct Random {
   std::uint64_t state;
   explicit Random(std::uint64_t seed) : state(seed) {}
@@ -237,7 +239,7 @@ struct Random {
   }
   Vector3 in_ball() {
     for (;;) {
-      const Vector3 p(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
+      const Vector3 p{uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)};
       if (p.squaredNorm() <= 1) return p;
     }
   }

@@ -72,11 +72,14 @@ SurfaceSnapshot random_surface(std::uint64_t seed) {
   Random random(seed);
   VoxelSolid solid;
   do {
-    const std::set<Cell> lattice = random_lattice(2 + random.below(2), random.uniform(0.4, 0.95), random);
+    const Index nodes = 2 + random.below(2);
+    const double share = random.uniform(0.4, 0.95);
+    const std::set<Cell> lattice = random_lattice(nodes, share, random);
     if (random.below(2) == 0) {
       solid.add(lattice);
     } else {
-      solid.box({-1, -1, random.below(2) - 1}, {6, 6, 5 + random.below(2)});
+      const Index bottom = random.below(2) - 1, top = 5 + random.below(2);
+      solid.box({-1, -1, bottom}, {6, 6, top});
       solid.remove(lattice);
     }
   } while (solid.cells.empty());
