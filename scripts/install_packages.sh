@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # Installs what scripts/packages.txt lists and the machine lacks. Debian or Ubuntu, as root or with sudo.
+# usage: install_packages.sh [FURTHER_PACKAGE...]
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 missing=()
-for package in $(grep -v '^#' "$here/packages.txt"); do
+for package in $(grep -v '^#' "$here/packages.txt") "$@"; do
   [[ $(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null || true) == installed ]] || missing+=("$package")
 done
 ((${#missing[@]})) || exit 0

@@ -3,7 +3,9 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 preset=${1:-release}
-scripts/install_packages.sh
+further=()
+if [[ $preset == tsan ]]; then further=(clang libomp-dev); fi
+scripts/install_packages.sh "${further[@]}"
 cmake --preset "$preset"
 cmake --build --preset "$preset"
 ctest --preset "$preset" --parallel "$(nproc)"
