@@ -37,7 +37,7 @@ bool is_binary_stl(std::string_view bytes) {
   if (bytes.size() < 84) return false;
   std::uint64_t count = 0;
   for (int i = 3; i >= 0; --i)
-    count = 256 * count + static_cast<unsigned char>(bytes[static_cast<std::size_t>(80 + i)]);
+    count = 256 * count + static_cast<unsigned char>(bytes[80 + static_cast<std::size_t>(i)]);
   return bytes.size() == 84 + 50 * count;
 }
 

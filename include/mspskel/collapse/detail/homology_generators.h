@@ -93,7 +93,7 @@ inline std::vector<Index> candidates_by_loop_length(const SurfaceSnapshot& surfa
     for (Index h = 3 * f; h < 3 * f + 3; ++h) {
       const Index t = surface.twin[h], a = surface.origin[h], b = surface.target(h);
       if (h > t || to[b] == h || to[a] == t) continue;
-      const auto length = static_cast<std::size_t>(depth[a] + depth[b]);
+      const auto length = static_cast<std::size_t>(depth[a]) + static_cast<std::size_t>(depth[b]);
       if (bucket.size() <= length) bucket.resize(length + 1);
       bucket[length].push_back(h);
     }

@@ -175,6 +175,7 @@ inline std::vector<Index> arcs_by_trust(const ArcGraph& graph, const std::vector
       keyed.push_back({{!doubtful.empty() && doubtful[a], arc_length(graph.arcs[a])}, a});
   std::sort(keyed.begin(), keyed.end());
   std::vector<Index> order;
+  order.reserve(keyed.size());
   for (const auto& [key, a] : keyed) order.push_back(a);
   return order;
 }
