@@ -414,7 +414,7 @@ TEST_CASE("Short leaf arcs are aimed at the end of their limb, and ends that rea
   CHECK(aim_ends(graph, solid.surface, solid.hierarchy, 0.01) == 3);
   CHECK(crossings(graph, solid.hierarchy) == 0);
   for (Index i = 1; i < 4; ++i) {
-    const Vector3& tip = tripod().nodes[i].position;
+    const Vector3 tip = tripod().nodes[i].position;
     CHECK((solid.model(graph.hub_position[i]) - tip).norm() < 0.3 * tip.norm());
   }
   CHECK(aim_ends(graph, solid.surface, solid.hierarchy, 0.05) == 0);
