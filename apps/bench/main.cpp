@@ -8,6 +8,7 @@ int main(int argc, char** argv) {
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
   mspskel::bench::register_mesh_benchmarks();
   mspskel::bench::register_slice_benchmarks();
+  mspskel::bench::register_stage_benchmarks();
   mspskel::bench::register_pipeline_benchmarks();
   benchmark::RunSpecifiedBenchmarks();
   return 0;

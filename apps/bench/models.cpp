@@ -41,12 +41,10 @@ Model make_model(const std::string& name, std::string bytes) {
   return model;
 }
 
-Model load(const char* name, const char* sample, Index resolution) {
-  std::ifstream file(model_folder() / (std::string(name) + ".off"), std::ios::binary);
-  if (file) return make_model(name, {std::istreambuf_iterator<char>(file), {}});
+Model sample(const char* name, Index resolution) {
   SampleOptions options;
   options.resolution = resolution;
-  return make_model("sample:" + std::string(sample), off_text(make_sample(sample, options)));
+  return make_model("sample:" + std::string(name), off_text(make_sample(name, options)));
 }
 
 }  // namespace
@@ -54,9 +52,12 @@ Model load(const char* name, const char* sample, Index resolution) {
 const std::vector<Model>& models() {
   static const std::vector<Model> all = [] {
     std::vector<Model> list;
-    list.push_back(load("horse", "quadruped", 8000));
-    list.push_back(load("hand", "torus", 25000));
-    list.push_back(load("armadillo", "capsule", 15000));
+    list.push_back(sample("quadruped", 8000));
+    list.push_back(sample("torus", 25000));
+    for (const char* name : {"horse", "hand", "armadillo"}) {
+      std::ifstream file(model_folder() / (std::string(name) + ".off"), std::ios::binary);
+      if (file) list.push_back(make_model(name, {std::istreambuf_iterator<char>(file), {}}));
+    }
     return list;
   }();
   return all;

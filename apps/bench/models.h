@@ -16,8 +16,8 @@ struct Model {
   SurfaceSnapshot surface;
 };
 
-// horse, hand and armadillo from the folder models/ of the environment's MSPSKEL_MESHES or of
-// ../shared/meshes beside the sources; where they are absent, three samples of like size. Loaded once.
+// Two samples, then horse, hand and armadillo as far as they are in the folder models/ of the environment's
+// MSPSKEL_MESHES or of ../shared/meshes beside the sources. Loaded once.
 const std::vector<Model>& models();
 
 }  // namespace mspskel::bench
