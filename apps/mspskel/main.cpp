@@ -2,7 +2,11 @@
 //
 // The first word picks the command here, and not in CLI11, which would take `check a b` for a mesh named
 // "check". A file of such a name is reached as ./check.
+#include <unistd.h>
+
+#include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <string>
 #include <vector>
@@ -38,9 +42,22 @@ int run_and_report(const std::vector<std::string>& words) {
   return static_cast<int>(ErrorKind::kNoSkeleton);
 }
 
+// Threads that spin while they wait for one another take the processor from the one that they wait for
+// wherever something else runs: asleep they cost nothing on an idle machine and save a third of the time on a
+// busy one. OpenMP reads that setting when it is loaded, before main, so the program starts itself once more;
+// where that fails it goes on as it is.
+void let_waiting_threads_sleep(char** argv) {
+  if (std::getenv("OMP_WAIT_POLICY") != nullptr || std::getenv("GOMP_SPINCOUNT") != nullptr) return;
+  std::error_code failed;
+  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", failed);
+  if (failed || setenv("OMP_WAIT_POLICY", "passive", 1) != 0) return;
+  execv(self.c_str(), argv);
+}
+
 }  // namespace
 }  // namespace mspskel::cli
 
 int main(int argc, char** argv) {
+  if (argc > 1) mspskel::cli::let_waiting_threads_sleep(argv);
   return mspskel::cli::run_and_report(std::vector<std::string>(argv + 1, argv + argc));
 }

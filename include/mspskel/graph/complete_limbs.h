@@ -13,7 +13,7 @@ namespace mspskel {
 // half as significant again as pruning asks of any other; then the next vertex, until none protrudes enough.
 // A new arc is a leaf, so the homotopy type stays. It takes the vertices that it covers better. Returns the
 // number of arcs added. Cost: O(vertices · points) once, O(vertices · points of the arc) and a few queries an
-// arc tried; at most 200 are tried.
+// arc tried; at most 64 are tried.
 Index complete_limbs(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
                      const VertexSlices& slices, const PruningOptions& options, double step);
 // With the paths of `inner`, which is of the same surface and solid.

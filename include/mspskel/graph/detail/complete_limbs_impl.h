@@ -43,7 +43,7 @@ class LimbCompletion {
   }
 
   Index run() {
-    constexpr int kTries = 200;
+    constexpr int kTries = 64;
     Index added = 0;
     for (int i = 0; i < kTries; ++i) {
       const auto farthest = std::max_element(outside_.begin(), outside_.end());
