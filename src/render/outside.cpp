@@ -86,7 +86,7 @@ std::vector<bool> inside_solid(const DrawSurface& surface, const std::vector<Vec
     axes.row(1) = z.cross(frame.right).normalized();
     axes.row(0) = axes.row(1).transpose().cross(z);
     axes.row(2) = z;
-    const Vector3 base = points.front();
+    const Vector3& base = points.front();
     std::vector<Vector3> corner, at;
     corner.reserve(surface.points.size());
     at.reserve(points.size());

@@ -92,7 +92,7 @@ Layer nearest_layer(const Shading& shading, const View& view, const Band& band, 
 }  // namespace
 
 Rgb shade_sample(const Shading& shading, const View& view, const Band& band, int x, int row) {
-  static const Rgb kLine(0.22f, 0.25f, 0.32f);
+  static const Rgb outline_color(0.22f, 0.25f, 0.32f);
   const std::size_t s = band.index(x, row);
   Rgb color = to_rgb(shading.options.background);
   const bool face = band.triangle[s] != kNone, tube = band.tube[s] != kNone;
@@ -111,7 +111,8 @@ Rgb shade_sample(const Shading& shading, const View& view, const Band& band, int
     Layer layer = nearest_layer(shading, view, band, x, row);
     if (tube && shading.ghost)
       layer.opacity *= 0.4f + 0.6f * static_cast<float>(shading.options.ghost_opacity);
-    if (outline) layer = {mix(layer.color, kLine, 0.8f), shading.ghost ? (tube ? 0.35f : 0.7f) : 1.0f};
+    if (outline)
+      layer = {mix(layer.color, outline_color, 0.8f), shading.ghost ? (tube ? 0.35f : 0.7f) : 1.0f};
     color = mix(color, layer.color, layer.opacity);
   }
   return tube && !covered ? tube_color(view, band, s) : color;

@@ -82,6 +82,7 @@ Family chain() {
                  "minor radius / major radius", 0.15, 0.02, 0.28);
   const auto make = [](const SampleOptions& o) {
     std::vector<RingPlace> places;
+    places.reserve(static_cast<std::size_t>(o.count));
     for (Index i = 0; i < o.count; ++i)
       places.push_back({{4.0 / 3 * i, 0, 0}, i % 2 == 0 ? Vector3(0, 0, 1) : Vector3(0, 1, 0)});
     return make_rings(places, o.ratio, o);

@@ -272,6 +272,7 @@ inline PatchRepair assign_vertices_to_branch_nodes(const SurfaceSnapshot& snapsh
     throw UsageError("branch_of_vertex has " + std::to_string(branch_of_vertex.size()) + " entries for " +
                      std::to_string(snapshot.vertex_count()) + " vertices");
   std::vector<detail::NearestOnChain> nearest;
+  nearest.reserve(branches.size());
   for (const Branch& branch : branches) nearest.emplace_back(skeleton, branch);
   skeleton.node_of_vertex.resize(branch_of_vertex.size(), kNone);
   for (Index v = 0; v < snapshot.vertex_count(); ++v) {
