@@ -43,9 +43,9 @@ int run_and_report(const std::vector<std::string>& words) {
 }
 
 // Threads that spin while they wait for one another take the processor from the one that they wait for
-// wherever something else runs: asleep they cost nothing on an idle machine and save a third of the time on a
-// busy one. OpenMP reads that setting when it is loaded, before main, so the program starts itself once more;
-// where that fails it goes on as it is.
+// wherever something else runs. Asleep they cost a little on an idle machine and save a third of the time and
+// more on a busy one. OpenMP reads that setting when it is loaded, before main, so the program starts itself
+// once more; where that fails it goes on as it is.
 void let_waiting_threads_sleep(char** argv) {
   if (std::getenv("OMP_WAIT_POLICY") != nullptr || std::getenv("GOMP_SPINCOUNT") != nullptr) return;
   std::error_code failed;
