@@ -139,6 +139,7 @@ TEST_CASE("search options are checked and named") {
   refused([](SearchOptions& o) { o.rounds = -1; }, "rounds");
   refused([](SearchOptions& o) { o.max_tilt = 90; }, "tilt");
   refused([](SearchOptions& o) { o.max_tilt = std::nan(""); }, "tilt");
-  refused([](SearchOptions& o) { o.max_turn = 0; }, "turns");
-  refused([](SearchOptions& o) { o.max_turn = 91; }, "turns");
+  refused([](SearchOptions& o) { o.last_step = 0; }, "steps");
+  refused([](SearchOptions& o) { o.first_step = o.last_step / 2; }, "steps");
+  refused([](SearchOptions& o) { o.first_step = 91; }, "steps");
 }

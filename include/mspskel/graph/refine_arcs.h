@@ -75,7 +75,6 @@ class ArcRefinement {
     for (int pass = 0; pass < 2; ++pass) {
       center(draft_);
       zip();
-      aim();
       prune(1.0);
     }
     aim();

@@ -42,11 +42,6 @@ class SliceTracer {
   // crossed. Cost: O(edges crossed).
   Shortest shortest_through(Index v, const Vector3& normal, double bound, std::int64_t& steps) const;
 
-  // How the perimeter of the contour found by shortest_through changes as its plane turns about v: by
-  // slope · dn if the normal changes by dn, as long as the plane sweeps over no vertex. Cost: O(edges
-  // crossed).
-  Vector3 slope(Index start, Index v, const Vector3& normal, std::int64_t& steps) const;
-
   // The whole contour that starts at half-edge `start` (from negative to positive) of the plane; `through` is
   // the vertex that counts as positive, or kNone. Overwrites `contour`.
   void trace(Index start, const Plane& plane, Index through, Contour& contour) const;

@@ -4,12 +4,12 @@
 
 namespace mspskel::detail {
 
-// Planes closer than 4 degrees are left to turn_downhill.
+// Planes closer than 4 degrees are left to the compass.
 inline constexpr double kSamePlane = 0.9976;
+// A neighbour's plane is tried unless its slice there is longer than the best here by more than this factor.
+inline constexpr double kOfferSlack = 1.02;
 // A gain of less than 0.2 % is not worth the planes that every change makes the neighbours try.
 inline constexpr double kLeastGain = 0.998;
-// A turn has to promise half of that.
-inline constexpr double kLeastPromise = 0.001;
 
 struct PlaneOffer {
   double objective;
@@ -152,21 +152,23 @@ class PlaneSearch {
     }
   }
 
-  // Turns the plane down the slope of the objective, by the angle at which the slice of a tube would be at
-  // its least, or half of it, as long as that helps.
-  void turn_downhill() {
-    constexpr int kMostTurns = 20;
+  // Turns and tilts the plane by a step as long as that helps, then by half of it, down to the least step.
+  void compass(double step_degrees) {
     if (best_.shortest.start == kNone) return;
-    bool turned = true;
-    for (int i = 0; i < kMostTurns && turned; ++i) {
-      const Vector3 m = best_.normal, slope = objective_slope();
-      const double steepness = slope.norm(), relative = steepness / objective_;
-      const double angle = std::min(std::atan(relative), options_.max_turn * kPi / 180);
-      if (!(0.5 * angle * relative > kLeastPromise)) return;
-      const auto turn = [&](double a) {
-        return try_plane(std::cos(a) * m - std::sin(a) / steepness * slope);
-      };
-      turned = turn(angle) || turn(angle / 2);
+    const double least = options_.last_step * kPi / 180;
+    int helped = -1;
+    for (double step = step_degrees * kPi / 180; step >= least * (1 - 1e-9);) {
+      const Vector3 m = best_.normal;
+      const Vector3 turn = axis_.cross(m).normalized(), tilt = m.cross(turn).normalized();
+      const Vector3 moves[4] = {turn, -turn, tilt, -tilt};
+      const int last = helped;
+      helped = -1;
+      for (int i = 0; i < 4 && helped < 0; ++i) {
+        const int k = last < 0 ? i : (last + i) % 4;  // go on in the direction that helped
+        if (last >= 0 && k == (last ^ 1)) continue;   // never straight back
+        if (try_plane(std::cos(step) * m + std::sin(step) * moves[k])) helped = k;
+      }
+      if (helped < 0) step /= 2;
     }
   }
 
@@ -176,17 +178,6 @@ class PlaneSearch {
   }
 
  private:
-  // How the objective of the best slice changes with its unit normal.
-  Vector3 objective_slope() {
-    const Vector3& m = best_.normal;
-    Vector3 slope = tracer_.slope(best_.shortest.start, v_, m, best_.steps);
-    if (options_.objective == SliceObjective::kPerimeterOverTilt) {
-      const double sine = m.dot(axis_), cosine = tilt_factor(options_.objective, sine);
-      slope = slope / cosine + objective_ * sine / (cosine * cosine) * axis_;
-    }
-    return slope - slope.dot(m) * m;
-  }
-
   const SliceTracer& tracer_;
   const SearchOptions& options_;
   Index v_;
@@ -212,7 +203,7 @@ inline void collect_offers(const SurfaceSnapshot& surface, const SearchState& st
 // The offers to v, each plane once.
 inline void try_offers(const std::vector<PlaneOffer>& offers, PlaneSearch& search) {
   for (auto offer = offers.begin(); offer != offers.end(); ++offer) {
-    if (offer->objective > search.objective()) return;
+    if (offer->objective > kOfferSlack * search.objective()) return;
     const bool repeated = std::any_of(offers.begin(), offer, [&](const PlaneOffer& other) {
       return std::abs(other.normal.dot(offer->normal)) > kSamePlane;
     });
@@ -230,7 +221,7 @@ inline RoundResult search_round(const SliceTracer& tracer, const SearchOptions& 
   try_offers(offers, search);
   if (round == 0) search.try_angles();
   if (first_visit) search.try_spread();
-  search.turn_downhill();
+  search.compass(round == 0 ? options.first_step : options.last_step);
   return {search.best(), search.objective()};
 }
 

@@ -55,7 +55,6 @@ inline Lanes dot(const Lanes3& a, const Lanes3& b) { return a.x * b.x + a.y * b.
 inline Lanes3 cross(const Lanes3& a, const Lanes3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-inline Lanes3 scaled(Lanes s, const Lanes3& a) { return {s * a.x, s * a.y, s * a.z}; }
 inline Lanes3 select(LaneMask m, const Lanes3& a, const Lanes3& b) {
   return {m ? a.x : b.x, m ? a.y : b.y, m ? a.z : b.z};
 }
@@ -64,7 +63,6 @@ inline Lanes norm(const Lanes3& a) {
   return Lanes{std::sqrt(square[0]), std::sqrt(square[1])};
 }
 inline double sum(Lanes a) { return a[0] + a[1]; }
-inline Vector3 sum(const Lanes3& a) { return {sum(a.x), sum(a.y), sum(a.z)}; }
 inline Vector3 lane(const Lanes3& a, int k) { return {a.x[k], a.y[k], a.z[k]}; }
 
 }  // namespace detail::two_walks
@@ -90,13 +88,10 @@ class SliceTracer::PairWalk {
     above_ = Lanes{} + side(point_[b], b);
   }
 
-  // The edges on which the walkers stand, from the negative to the positive end; the difference of the signed
-  // distances of their ends; where the plane cuts them.
-  Lanes3 edge() const { return positive_ - negative_; }
-  Lanes rise() const { return above_ - below_; }
+  // Where the plane cuts the edges on which the walkers stand.
   Lanes3 crossing() const {
     const Lanes w = below_ / (below_ - above_);
-    const Lanes3 e = edge();
+    const Lanes3 e = positive_ - negative_;
     return {negative_.x + w * e.x, negative_.y + w * e.y, negative_.z + w * e.z};
   }
 
@@ -160,38 +155,6 @@ inline SliceTracer::Measure SliceTracer::measure(Index start, const Side& side, 
   // The walk keeps the positive side on its right as seen from outside, which is clockwise about the plane's
   // normal round material.
   return {perimeter, -0.5 * (twice.x() * side.x + twice.y() * side.y + twice.z() * side.z)};
-}
-
-// A crossing x moves along its edge e by −(x − p)·dn / (rise along e), and the perimeter changes by that
-// times e · (unit tangent before − unit tangent after).
-inline Vector3 SliceTracer::slope(Index start, Index v, const Vector3& normal, std::int64_t& steps) const {
-  using namespace detail::two_walks;
-  constexpr double kTiny = 1e-300;  // no tangent where two crossings coincide
-  PairWalk walk(*this, start, side_through(v, normal));
-  const Point& q = point_[v];
-  const Lanes3 p{Lanes{} + q.x, Lanes{} + q.y, Lanes{} + q.z};
-  Lanes3 last = walk.crossing(), before = {}, gradient = {};
-  const auto add = [&](const Lanes3& edge, Lanes rise, const Lanes3& after) {
-    const Lanes3 change = scaled(dot(after - before, edge) / rise, last - p);
-    gradient.x += change.x, gradient.y += change.y, gradient.z += change.z;
-  };
-  bool apart = true;
-  for (Index limit = surface_.face_count(); apart && limit > 0; --limit) {
-    const Lanes3 edge = walk.edge();
-    const Lanes rise = walk.rise();
-    apart = walk.advance();
-    const Lanes3 point = walk.crossing(), move = point - last,
-                 after = scaled(1.0 / (norm(move) + kTiny), move);
-    add(edge, rise, after);
-    last = point;
-    before = after;
-    steps += 2;
-  }
-  const Lanes3 gap = {{last.x[1] - last.x[0], last.x[0] - last.x[1]},
-                      {last.y[1] - last.y[0], last.y[0] - last.y[1]},
-                      {last.z[1] - last.z[0], last.z[0] - last.z[1]}};
-  add(walk.edge(), walk.rise(), scaled(1.0 / (norm(gap) + kTiny), gap));
-  return sum(gradient);
 }
 
 inline SliceTracer::Side SliceTracer::side_through(Index v, const Vector3& normal) const {
