@@ -18,30 +18,6 @@
 namespace mspskel::cli {
 namespace {
 
-int run(const std::vector<std::string>& words) {
-  using Command = int (*)(const std::vector<std::string>&);
-  const std::pair<const char*, Command> commands[] = {
-      {"sample", sample_command}, {"render", render_command}, {"check", check_command}};
-  for (const auto& [name, command] : commands) {
-    if (!words.empty() && words.front() == name) return command({words.begin() + 1, words.end()});
-  }
-  return extract_command(words);
-}
-
-int run_and_report(const std::vector<std::string>& words) {
-  try {
-    return run(words);
-  } catch (const Error& error) {
-    Terminal().error(error.what());
-    return static_cast<int>(error.kind());
-  } catch (const std::bad_alloc&) {
-    Terminal().error("not enough memory");
-  } catch (const std::exception& error) {
-    Terminal().error(error.what());
-  }
-  return static_cast<int>(ErrorKind::kNoSkeleton);
-}
-
 // Threads that spin while they wait for one another take the processor from the one that they wait for
 // wherever something else runs. Asleep they cost a little on an idle machine and save a third of the time and
 // more on a busy one. OpenMP reads that setting when it is loaded, before main, so the program starts itself
@@ -54,10 +30,34 @@ void let_waiting_threads_sleep(char** argv) {
   execv(self.c_str(), argv);
 }
 
+int run(const std::vector<std::string>& words, char** argv) {
+  using Command = int (*)(const std::vector<std::string>&);
+  const std::pair<const char*, Command> commands[] = {
+      {"sample", sample_command}, {"render", render_command}, {"check", check_command}};
+  for (const auto& [name, command] : commands) {
+    if (!words.empty() && words.front() == name) return command({words.begin() + 1, words.end()});
+  }
+  if (!words.empty()) let_waiting_threads_sleep(argv);
+  return extract_command(words);
+}
+
+int run_and_report(const std::vector<std::string>& words, char** argv) {
+  try {
+    return run(words, argv);
+  } catch (const Error& error) {
+    Terminal().error(error.what());
+    return static_cast<int>(error.kind());
+  } catch (const std::bad_alloc&) {
+    Terminal().error("not enough memory");
+  } catch (const std::exception& error) {
+    Terminal().error(error.what());
+  }
+  return static_cast<int>(ErrorKind::kNoSkeleton);
+}
+
 }  // namespace
 }  // namespace mspskel::cli
 
 int main(int argc, char** argv) {
-  if (argc > 1) mspskel::cli::let_waiting_threads_sleep(argv);
-  return mspskel::cli::run_and_report(std::vector<std::string>(argv + 1, argv + argc));
+  return mspskel::cli::run_and_report(std::vector<std::string>(argv + 1, argv + argc), argv);
 }

@@ -61,6 +61,19 @@ struct SurfaceSnapshot {
   }
 };
 
+// Calls visit(w) for the neighbours w of v, in the order of the half-edges round v; none for an isolated
+// vertex.
+template <class Visit>
+void for_each_neighbour(const SurfaceSnapshot& surface, Index v, Visit&& visit) {
+  const Index first = surface.vertex_halfedge[v];
+  if (first == kNone) return;
+  Index h = first;
+  do {
+    visit(surface.target(h));
+    h = surface.next_outgoing(h);
+  } while (h != first);
+}
+
 // Copies any OpenMesh triangle mesh. Cost: O(faces).
 // Throws MeshError if the mesh is empty, not closed, has a vertex where two fans meet, or a coordinate that
 // is not finite.

@@ -39,15 +39,6 @@ inline VertexPoint point_of_slice(const SliceTracer& tracer, const SkeletonMeshO
 inline void fill_in_points(const SurfaceSnapshot& surface, SkeletonMesh& mesh) {
   std::vector<std::uint8_t> known = mesh.valid;
   std::vector<Index> layer, next;
-  const auto for_each_neighbour = [&](Index v, auto visit) {
-    const Index first = surface.vertex_halfedge[v];
-    if (first == kNone) return;
-    Index h = first;
-    do {
-      visit(surface.target(h));
-      h = surface.next_outgoing(h);
-    } while (h != first);
-  };
   for (Index v = 0; v < mesh.vertex_count(); ++v)
     if (!known[v]) next.push_back(v);
   while (!next.empty()) {
@@ -56,7 +47,7 @@ inline void fill_in_points(const SurfaceSnapshot& surface, SkeletonMesh& mesh) {
     for (const Index v : next) {
       Vector3 sum = Vector3::Zero();
       Index count = 0;
-      for_each_neighbour(v, [&](Index w) {
+      for_each_neighbour(surface, v, [&](Index w) {
         if (known[w]) sum += mesh.position[w], ++count;
       });
       if (count > 0) mesh.position[v] = sum / count;

@@ -22,17 +22,6 @@ struct RoundResult {
   double objective = std::numeric_limits<double>::infinity();
 };
 
-template <class Visit>
-void for_each_neighbour(const SurfaceSnapshot& surface, Index v, Visit&& visit) {
-  const Index first = surface.vertex_halfedge[v];
-  if (first == kNone) return;
-  Index h = first;
-  do {
-    visit(surface.target(h));
-    h = surface.next_outgoing(h);
-  } while (h != first);
-}
-
 // A vertex whose area no neighbour exceeds.
 inline bool is_seed(const SurfaceSnapshot& surface, Index v) {
   bool seed = surface.vertex_halfedge[v] != kNone;
