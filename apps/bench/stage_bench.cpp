@@ -29,7 +29,7 @@ struct Stages {
     collapsed = collapse_skeleton_mesh(working, coherent, cocycles.label, options.collapse);
     graph = make_arc_graph(collapsed);
     refined = graph;
-    refine_arcs(refined, working, solid, slices, options.refinement);
+    refine_arcs(refined, working, input, solid, slices, options.refinement);
     carry_over();
   }
 
@@ -132,7 +132,7 @@ void arcs(benchmark::State& state, const Stages& s, const Execution& execution) 
   for (auto _ : state) {
     ArcGraph graph = s.graph;
     benchmark::DoNotOptimize(
-        refine_arcs(graph, s.working, s.solid, s.slices, s.options.refinement, execution));
+        refine_arcs(graph, s.working, s.input, s.solid, s.slices, s.options.refinement, execution));
   }
   state.counters["arcs"] = s.graph.arc_count();
 }

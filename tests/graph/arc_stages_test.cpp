@@ -3,42 +3,14 @@
 #include <catch2/catch.hpp>
 
 #include "graph/arc_graphs.h"
+#include "graph/solids.h"
 #include "mspskel/graph/refine_arcs.h"
 #include "mspskel/samples/skin_graph.h"
-#include "mspskel/slice/plane_search.h"
-#include "mspskel/slice/slice_error.h"
 
 using namespace mspskel;
 using namespace mspskel::test;
 
 namespace {
-
-struct Solid {
-  SurfaceSnapshot surface;
-  BoundingVolumeHierarchy hierarchy;
-  explicit Solid(const DefaultMesh& mesh) : surface(make_snapshot(mesh)), hierarchy(surface) {}
-
-  Vector3 at(const Vector3& x) const { return surface.frame.to_normalised(x); }
-  Vector3 model(const Vector3& x) const { return surface.frame.to_model(x); }
-  VertexSlices slices() const {
-    const SliceTracer tracer(surface);
-    VertexSlices result = search_minimum_slice_perimeters(tracer, {});
-    compute_slice_errors(tracer, {}, result);
-    return result;
-  }
-  VertexSlices no_slices() const {
-    VertexSlices none;
-    none.resize(surface.vertex_count());
-    return none;
-  }
-};
-
-DefaultMesh sample(const std::string& name, Index vertices, Index count = 0) {
-  SampleOptions options;
-  options.resolution = vertices;
-  if (count > 0) options.count = count;
-  return to_mesh(make_sample(name, options));
-}
 
 // An arc between two hubs with even points on a straight line.
 Index line(ArcGraph& graph, Index from, Index to, Index count = 40) {
@@ -104,14 +76,14 @@ TEST_CASE("Random graphs are routed inside, and every stage keeps them there, wi
       check("aiming");
       extend_ends(graph, solid.hierarchy, {});
       check("extension");
-      prune_branches(graph, solid.surface, solid.hierarchy, slices, {});
+      prune_branches(graph, solid.surface, solid.hierarchy, slices, {}, {});
       check("pruning");
       remove_spurs(graph, solid.hierarchy);
       check("removing spurs");
       CHECK(spur_count(graph, solid.hierarchy) == 0);
       center_arcs(graph, solid.hierarchy, coarse);
       check("centring again");
-      complete_limbs(graph, solid.surface, solid.hierarchy, slices, {}, coarse.step);
+      complete_limbs(graph, solid.surface, solid.hierarchy, slices, {}, {}, coarse.step);
       check("completion of limbs");
       subdivide(graph, 0.01);
       check("subdivision");
@@ -298,14 +270,6 @@ TEST_CASE("Arcs that part later are zipped up to where they part; arcs round a h
 
 namespace {
 
-BallGraph tripod() {
-  BallGraph graph;
-  graph.blend = 0.1;
-  graph.nodes = {{{0, 0, 0}, 0.5}, {{0, 0, 3}, 0.4}, {{2.6, 0, -1.5}, 0.4}, {{-2.6, 0.2, -1.5}, 0.4}};
-  graph.edges = {{0, 1}, {0, 2}, {0, 3}};
-  return graph;
-}
-
 // Arcs from the middle of the tripod to the given share of each limb, and one more to the given place.
 ArcGraph tripod_arcs(const Solid& solid, double share, const Vector3* hair = nullptr) {
   const BallGraph limbs = tripod();
@@ -329,7 +293,7 @@ TEST_CASE("Pruning takes a hair and leaves the limbs") {
   const Solid solid(to_mesh(skin_graph(tripod(), 1200)));
   const Vector3 hair(0, 0.3, 0);
   ArcGraph graph = tripod_arcs(solid, 1.0, &hair);
-  CHECK(prune_branches(graph, solid.surface, solid.hierarchy, solid.slices(), {}) == 1);
+  CHECK(prune_branches(graph, solid.surface, solid.hierarchy, solid.slices(), {}, {}) == 1);
   CHECK(leaf_count(graph) == 3);
   CHECK(living_arcs(graph) == 3);
   CHECK_FALSE(graph.hub_alive[4]);
@@ -338,20 +302,56 @@ TEST_CASE("Pruning takes a hair and leaves the limbs") {
   PruningOptions all;
   all.significance = 100;
   all.smallest = 1;
-  prune_branches(graph, solid.surface, solid.hierarchy, solid.slices(), all);
+  prune_branches(graph, solid.surface, solid.hierarchy, solid.slices(), {}, all);
   CHECK(type_of(graph) == GraphType{1, 0});
   CHECK(living_arcs(graph) == 1);
+}
+
+TEST_CASE("A leaf arc that leaves the solid goes, and the others stay") {
+  const Solid solid(to_mesh(skin_graph(tripod(), 1200)));
+  const Vector3 outside(0, 2, 0);
+  ArcGraph graph = tripod_arcs(solid, 0.97, &outside);
+  CHECK(crossings(graph, solid.hierarchy) > 0);
+  CHECK(remove_crossing_leaves(graph, solid.hierarchy) == 1);
+  CHECK(crossings(graph, solid.hierarchy) == 0);
+  CHECK(leaf_count(graph) == 3);
+  CHECK(map_is_partition(graph));
+  CHECK(type_of(graph) == GraphType{1, 0});
+  CHECK(remove_crossing_leaves(graph, solid.hierarchy) == 0);
+}
+
+TEST_CASE("A hub outside goes into its own limb, however near another one is") {
+  // Two parallel tubes, joined far away.
+  BallGraph limbs;
+  limbs.blend = 0.02;
+  limbs.nodes = {{{0, 0, 0}, 0.3}, {{3, 0, 0}, 0.3}, {{3, 1, 0}, 0.3}, {{0, 1, 0}, 0.3}};
+  limbs.edges = {{0, 1}, {1, 2}, {2, 3}};
+  const Solid solid(to_mesh(skin_graph(limbs, 1500)));
+  ArcGraph graph;
+  graph.add_hub(solid.at({1.5, 0.55, 0}));  // nearer to the other tube
+  graph.add_hub(solid.at({2.8, 0, 0}));
+  line(graph, 0, 1);
+  graph.arc_of_vertex.assign(solid.surface.position.size(), kNone);
+  graph.hub_of_vertex.assign(solid.surface.position.size(), kNone);
+  for (Index v = 0; v < solid.surface.vertex_count(); ++v) {
+    const Vector3 x = solid.model(solid.surface.position[v]);
+    graph.hub_of_vertex[v] = x.y() < 0.45 && x.x() < 2 ? 0 : 1;
+  }
+  route_inside(graph, solid.surface, solid.hierarchy);
+  CHECK(solid.hierarchy.inside(graph.hub_position[0]));
+  CHECK(solid.model(graph.hub_position[0]).y() < 0.4);
+  CHECK(crossings(graph, solid.hierarchy) == 0);
 }
 
 TEST_CASE("A limb without an arc gets one, and nothing is added where all have theirs") {
   const Solid solid(to_mesh(skin_graph(tripod(), 1200)));
   const VertexSlices slices = solid.slices();
   ArcGraph whole = tripod_arcs(solid, 0.97);
-  CHECK(complete_limbs(whole, solid.surface, solid.hierarchy, slices, {}, 0.01) == 0);
+  CHECK(complete_limbs(whole, solid.surface, solid.hierarchy, slices, {}, {}, 0.01) == 0);
   ArcGraph graph = whole;
   remove_leaf_arc(graph, 2, 0);
   dissolve_through_hubs(graph);
-  CHECK(complete_limbs(graph, solid.surface, solid.hierarchy, slices, {}, 0.01) == 1);
+  CHECK(complete_limbs(graph, solid.surface, solid.hierarchy, slices, {}, {}, 0.01) == 1);
   CHECK(leaf_count(graph) == 3);
   CHECK(type_of(graph) == GraphType{1, 0});
   CHECK(arcs_meet_hubs(graph));
@@ -375,7 +375,7 @@ TEST_CASE("A star in a ball is pruned to one arc") {
     line(graph, 0, i);
   }
   map_to_nearest(graph, solid.surface.position);
-  prune_branches(graph, solid.surface, solid.hierarchy, solid.slices(), {});
+  prune_branches(graph, solid.surface, solid.hierarchy, solid.slices(), {}, {});
   CHECK(living_arcs(graph) == 1);
   CHECK(map_is_partition(graph));
 }
@@ -388,7 +388,7 @@ TEST_CASE("Nothing is pruned without thresholds") {
     map_to_nearest(graph, solid.surface.position);
     PruningOptions none;
     none.significance = none.smallest = 0;
-    CHECK(prune_branches(graph, solid.surface, solid.hierarchy, solid.no_slices(), none) == 0);
+    CHECK(prune_branches(graph, solid.surface, solid.hierarchy, solid.no_slices(), {}, none) == 0);
   }
 }
 

@@ -167,7 +167,7 @@ inline ExtractResult extract_skeleton_of_snapshot(SurfaceSnapshot surface, const
   if (options.refinement.enabled) {
     arcs = make_arc_graph(result.collapsed);
     result.refinement =
-        refine_arcs(arcs, working, solid, result.slices, options.refinement, options.execution);
+        refine_arcs(arcs, working, shells, solid, result.slices, options.refinement, options.execution);
     clock.lap("arcs");
   }
   if (result.coarse) detail::carry_over(result, arcs);

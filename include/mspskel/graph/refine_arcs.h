@@ -6,6 +6,7 @@
 #include "mspskel/graph/center_arcs.h"
 #include "mspskel/graph/complete_limbs.h"
 #include "mspskel/graph/extend_ends.h"
+#include "mspskel/graph/limb_tips.h"
 #include "mspskel/graph/limit_nodes.h"
 #include "mspskel/graph/merge_joints.h"
 #include "mspskel/graph/prune_branches.h"
@@ -49,10 +50,12 @@ namespace detail {
 // The stages of refine_arcs on one graph. Each has to keep the graph's homotopy type, and is held to it.
 class ArcRefinement {
  public:
-  ArcRefinement(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
-                const VertexSlices& slices, const RefinementOptions& options, const Execution& execution)
+  ArcRefinement(ArcGraph& graph, const SurfaceSnapshot& surface, const SurfaceSnapshot& input,
+                const BoundingVolumeHierarchy& solid, const VertexSlices& slices,
+                const RefinementOptions& options, const Execution& execution)
       : graph_(graph),
         surface_(surface),
+        input_(input),
         solid_(solid),
         slices_(slices),
         options_(options),
@@ -69,6 +72,7 @@ class ArcRefinement {
   }
 
   RefinementCounts run() {
+    tips_ = find_limb_tips(surface_, solid_, slices_, options_.pruning, execution_);
     route();
     aim();
     prune(options_.first_pruning);  // hairs would pull on the arcs that they leave
@@ -98,6 +102,18 @@ class ArcRefinement {
 
   void route() {
     counts_.routing = route_inside(graph_, surface_, solid_, inner_);
+    // Edges of the coarser surface may cut what bounds the solid where a limb is thin.
+    if (counts_.routing.unroutable > 0 && &input_ != &surface_) {
+      InnerGraph fine(input_, solid_, execution_);
+      const RoutingResult again = route_inside(graph_, surface_, solid_, fine);
+      counts_.routing.routed += again.routed;
+      counts_.routing.unroutable = again.unroutable;
+    }
+    if (counts_.routing.unroutable > 0) {
+      const Index removed = remove_crossing_leaves(graph_, solid_);
+      counts_.pruned += removed;
+      counts_.routing.unroutable -= std::min(removed, counts_.routing.unroutable);
+    }
     keep_type("routing inside");
   }
   void aim() {
@@ -108,7 +124,7 @@ class ArcRefinement {
     PruningOptions pruning = options_.pruning;
     pruning.significance *= share;
     pruning.smallest *= share;
-    counts_.pruned += prune_branches(graph_, surface_, solid_, slices_, pruning, execution_);
+    counts_.pruned += prune_branches(graph_, surface_, solid_, slices_, tips_, pruning, execution_);
     keep_type("pruning");
     counts_.joints_merged += merge_joints(graph_, solid_, options_.joint_overlap);
     dissolve_through_hubs(graph_);
@@ -123,7 +139,7 @@ class ArcRefinement {
     keep_type("zipping");
   }
   void complete() {
-    counts_.completed = complete_limbs(graph_, surface_, solid_, slices_, options_.pruning,
+    counts_.completed = complete_limbs(graph_, surface_, solid_, slices_, tips_, options_.pruning,
                                        options_.centering.step, inner_, execution_);
     keep_type("completion of limbs");
   }
@@ -140,11 +156,13 @@ class ArcRefinement {
 
   ArcGraph& graph_;
   const SurfaceSnapshot& surface_;
+  const SurfaceSnapshot& input_;
   const BoundingVolumeHierarchy& solid_;
   const VertexSlices& slices_;
   const RefinementOptions& options_;
   const Execution& execution_;
   const ArcGraphType type_;
+  std::vector<LimbTip> tips_;
   InnerGraph inner_;
   CenteringOptions draft_, touch_up_;
   RefinementCounts counts_;
@@ -153,13 +171,15 @@ class ArcRefinement {
 }  // namespace detail
 
 // Every step keeps the number of components and of independent cycles: leaf arcs go, arcs that are no loops
-// contract, points move. `slices` are those of the surface's vertices. Throws UsageError, Cancelled, and
-// NoSkeletonError if a step broke that promise, which would be a bug.
+// contract, points move. `slices` and the graph's map are of the vertices of `surface`; `input` is the
+// surface that bounds `solid`, and the same one unless `surface` is coarser. Throws UsageError, Cancelled,
+// and NoSkeletonError if a step broke that promise, which would be a bug.
 inline RefinementCounts refine_arcs(ArcGraph& graph, const SurfaceSnapshot& surface,
-                                    const BoundingVolumeHierarchy& solid, const VertexSlices& slices,
-                                    const RefinementOptions& options, const Execution& execution = {}) {
+                                    const SurfaceSnapshot& input, const BoundingVolumeHierarchy& solid,
+                                    const VertexSlices& slices, const RefinementOptions& options,
+                                    const Execution& execution = {}) {
   validate(options);
-  return detail::ArcRefinement(graph, surface, solid, slices, options, execution).run();
+  return detail::ArcRefinement(graph, surface, input, solid, slices, options, execution).run();
 }
 
 }  // namespace mspskel

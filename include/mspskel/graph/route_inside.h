@@ -15,16 +15,20 @@ struct RoutingResult {
   Index unroutable = 0;  // stretches for which no path was found: they stay as they were
 };
 
-// Moves hubs that lie outside to the nearest chord middle, and replaces every stretch of an arc that leaves
-// the solid by the path of least length / clearance along edges of the mesh whose ends were moved to the
-// middle of their inward chord. Such a path stays close to the medial surface and follows thin walls. Does
-// nothing where all is inside. Cost: O(points · log faces), and a shortest path over the mesh for each
+// Moves hubs that lie outside to the nearest chord middle of their part, and replaces every stretch of an arc
+// that leaves the solid by the path of least length / clearance along edges of the mesh whose ends were moved
+// to the middle of their inward chord. Such a path stays close to the medial surface and follows thin walls.
+// Does nothing where all is inside. Cost: O(points · log faces), and a shortest path over the mesh for each
 // stretch.
 RoutingResult route_inside(ArcGraph& graph, const SurfaceSnapshot& surface,
                            const BoundingVolumeHierarchy& solid);
 // With the paths of `inner`, which is of the same surface and solid.
 RoutingResult route_inside(ArcGraph& graph, const SurfaceSnapshot& surface,
                            const BoundingVolumeHierarchy& solid, detail::InnerGraph& inner);
+
+// Removes leaf arcs that leave the solid: where a surface crosses itself, parts of what it bounds may be out
+// of one another's reach. Returns their number. Cost: a query a point.
+Index remove_crossing_leaves(ArcGraph& graph, const BoundingVolumeHierarchy& solid);
 
 }  // namespace mspskel
 

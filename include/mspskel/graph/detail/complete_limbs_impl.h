@@ -23,12 +23,13 @@ struct GraphPoint {
 class LimbCompletion {
  public:
   LimbCompletion(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
-                 const VertexSlices& slices, const PruningOptions& options, double step, InnerGraph& inner,
-                 const Execution& execution)
+                 const VertexSlices& slices, const std::vector<LimbTip>& tips, const PruningOptions& options,
+                 double step, InnerGraph& inner, const Execution& execution)
       : graph_(graph),
         surface_(surface),
         solid_(solid),
         slices_(slices),
+        tips_(tips),
         options_(options),
         step_(step),
         inner_(inner) {
@@ -44,12 +45,12 @@ class LimbCompletion {
 
   Index run() {
     constexpr int kTries = 64;
-    Index added = 0;
+    Index added = reach_tips();
     for (int i = 0; i < kTries; ++i) {
       const auto farthest = std::max_element(outside_.begin(), outside_.end());
       if (!(*farthest > std::max(options_.smallest, step_))) break;
       const Index v = static_cast<Index>(farthest - outside_.begin());
-      if (try_limb(v)) {
+      if (try_limb(v, false)) {
         ++added;
       } else {
         dismiss(v);
@@ -59,6 +60,22 @@ class LimbCompletion {
   }
 
  private:
+  // Arcs to the tips that no leaf arc stands for. What goes round a handle has a tip too, but lies within the
+  // balls of the loop.
+  Index reach_tips() {
+    const auto at = graph_.incidence();
+    std::vector<std::pair<double, Index>> bare;
+    const std::vector<std::size_t> leaf = leaves_of_tips(graph_, ArcParts(graph_, at), tips_);
+    for (std::size_t i = 0; i < tips_.size(); ++i)
+      if (leaf[i] == kNoLeaf && tips_[i].significance.depth > 0)
+        bare.push_back({-tips_[i].significance.depth, static_cast<Index>(i)});
+    std::sort(bare.begin(), bare.end());
+    Index added = 0;
+    for (const auto& [depth, i] : bare)
+      if (outside_[tips_[i].vertex] > -0.5 * depth && try_limb(tips_[i].vertex, true)) ++added;
+    return added;
+  }
+
   void cover(const std::vector<Ball>& balls) {
     if (balls.empty()) return;
     for (std::size_t v = 0; v < outside_.size(); ++v)
@@ -139,7 +156,7 @@ class LimbCompletion {
     return way.size() > 2;
   }
 
-  bool try_limb(Index v) {
+  bool try_limb(Index v, bool is_tip) {
     GraphPoint start;
     std::vector<Vector3> way;
     if (!find_way(v, start, way)) return false;
@@ -157,8 +174,9 @@ class LimbCompletion {
     center_arcs(alone, solid_, few, one_thread);
     way = alone.arcs[0].points;
     const Ball ball{way.front(), solid_.distance(way.front())};
-    if (outside_[v] < kCorner * ball.radius) return false;
-    if (significance(way, ball, outside_[v]) < kCaution * options_.significance) return false;
+    if (!is_tip && (outside_[v] < kCorner * ball.radius ||
+                    significance(way, ball, outside_[v]) < kCaution * options_.significance))
+      return false;
     if (solid_.segment_crosses(start.position, way.front())) return false;
     way.insert(way.begin(), start.position);
     add(start, way, surface_.component[v]);
@@ -218,6 +236,7 @@ class LimbCompletion {
   const SurfaceSnapshot& surface_;
   const BoundingVolumeHierarchy& solid_;
   const VertexSlices& slices_;
+  const std::vector<LimbTip>& tips_;
   const PruningOptions& options_;
   double step_;
   InnerGraph& inner_;
@@ -229,16 +248,16 @@ class LimbCompletion {
 
 inline Index complete_limbs(ArcGraph& graph, const SurfaceSnapshot& surface,
                             const BoundingVolumeHierarchy& solid, const VertexSlices& slices,
-                            const PruningOptions& options, double step, detail::InnerGraph& inner,
-                            const Execution& execution) {
-  return detail::LimbCompletion(graph, surface, solid, slices, options, step, inner, execution).run();
+                            const std::vector<LimbTip>& tips, const PruningOptions& options, double step,
+                            detail::InnerGraph& inner, const Execution& execution) {
+  return detail::LimbCompletion(graph, surface, solid, slices, tips, options, step, inner, execution).run();
 }
 
 inline Index complete_limbs(ArcGraph& graph, const SurfaceSnapshot& surface,
                             const BoundingVolumeHierarchy& solid, const VertexSlices& slices,
-                            const PruningOptions& options, double step) {
+                            const std::vector<LimbTip>& tips, const PruningOptions& options, double step) {
   detail::InnerGraph inner(surface, solid);
-  return complete_limbs(graph, surface, solid, slices, options, step, inner);
+  return complete_limbs(graph, surface, solid, slices, tips, options, step, inner);
 }
 
 }  // namespace mspskel

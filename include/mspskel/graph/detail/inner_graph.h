@@ -36,11 +36,12 @@ class InnerGraph {
   bool usable(Index v) const { return clearance_[v] != 0; }
   const Vector3& point(Index v) const { return point_[v]; }
 
-  // Of one component's points, or of all if that is kNone.
-  Index nearest(const Vector3& x, Index component) const {
+  // Among the vertices that `allowed` holds for; kNone if none of them has a point.
+  template <class Allowed>
+  Index nearest(const Vector3& x, Allowed allowed) const {
     Index best = kNone;
     for (Index v = 0; v < surface_.vertex_count(); ++v)
-      if (usable(v) && (component == kNone || surface_.component[v] == component) &&
+      if (usable(v) && allowed(v) &&
           (best == kNone || (point_[v] - x).squaredNorm() < (point_[best] - x).squaredNorm()))
         best = v;
     return best;

@@ -6,10 +6,6 @@
 
 namespace mspskel {
 
-inline double slice_half_width(double perimeter, double area) {
-  return 0.25 * (perimeter / 2 + std::sqrt(std::max(0.0, perimeter * perimeter / 4 - 4 * area)));
-}
-
 namespace detail {
 
 struct Ball {
@@ -49,12 +45,11 @@ inline double distance_outside(const std::vector<Ball>& balls, const Vector3& x,
   return best;
 }
 
-inline double value_at_rank(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + at, values.end());
-  return values[static_cast<std::size_t>(at)];
-}
+// A leaf arc of which the surface itself tells nothing needs better evidence: what it is measured by changes
+// with the rest of the skeleton.
+inline constexpr double kNoTipCaution = 2.5;
+
+inline constexpr std::size_t kNoLeaf = static_cast<std::size_t>(-1);
 
 // Which vertices belong to which arc, and for every leaf arc the joint that it leaves.
 struct ArcParts {
@@ -163,11 +158,39 @@ inline LeafSignificance leaf_significance(const ArcGraph& graph, const SurfaceSn
   return s;
 }
 
+// For each tip the leaf arc that stands for it, as a place in parts.leaves: the one that has most of its cap
+// and at least a third; kNoLeaf if that stands for another tip of which it has more.
+inline std::vector<std::size_t> leaves_of_tips(const ArcGraph& graph, const ArcParts& parts,
+                                               const std::vector<LimbTip>& tips) {
+  std::vector<std::size_t> leaf_of_vertex(graph.arc_of_vertex.size(), kNoLeaf);
+  for (std::size_t i = 0; i < parts.leaves.size(); ++i)
+    for (const Index v : parts.vertices[parts.leaves[i][0]]) leaf_of_vertex[v] = i;
+  std::vector<std::size_t> leaf_of_tip(tips.size(), kNoLeaf), tip_of_leaf(parts.leaves.size(), kNoLeaf);
+  std::vector<double> share_of_leaf(parts.leaves.size(), 1.0 / 3);
+  std::vector<std::size_t> count(parts.leaves.size());
+  for (std::size_t t = 0; t < tips.size(); ++t) {
+    std::fill(count.begin(), count.end(), 0);
+    for (const Index v : tips[t].cap)
+      if (leaf_of_vertex[v] != kNoLeaf) ++count[leaf_of_vertex[v]];
+    const auto most = std::max_element(count.begin(), count.end());
+    if (most == count.end()) continue;
+    const auto leaf = static_cast<std::size_t>(most - count.begin());
+    const double share = static_cast<double>(*most) / static_cast<double>(tips[t].cap.size());
+    if (share < share_of_leaf[leaf]) continue;
+    if (tip_of_leaf[leaf] != kNoLeaf) leaf_of_tip[tip_of_leaf[leaf]] = kNoLeaf;
+    tip_of_leaf[leaf] = t;
+    leaf_of_tip[t] = leaf;
+    share_of_leaf[leaf] = share;
+  }
+  return leaf_of_tip;
+}
+
 // Removes insignificant leaf arcs from a graph without through hubs, the weakest first.
 class LeafPruner {
  public:
   LeafPruner(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
-             const VertexSlices& slices, const PruningOptions& options, const Execution& execution)
+             const VertexSlices& slices, const std::vector<LimbTip>& tips, const PruningOptions& options,
+             const Execution& execution)
       : graph_(graph),
         surface_(surface),
         solid_(solid),
@@ -177,7 +200,10 @@ class LeafPruner {
         balls_(graph, solid, execution),
         parts_(graph, at_),
         score_(parts_.leaves.size()),
+        has_tip_(parts_.leaves.size(), false),
         stale_(parts_.leaves.size(), false) {
+    for (const std::size_t leaf : leaves_of_tips(graph, parts_, tips))
+      if (leaf != kNoLeaf) has_tip_[leaf] = true;
     parallel_for(
         static_cast<Index>(score_.size()), "arcs", execution, [] { return 0; },
         [&](Index i, int) { score_[i] = score(static_cast<std::size_t>(i)); }, 1);
@@ -209,10 +235,11 @@ class LeafPruner {
  private:
   // Below 1: insignificant.
   double score(std::size_t i) const {
+    if (has_tip_[i]) return 1.0;
     const auto [arc, joint] = parts_.leaves[i];
     const LeafSignificance s =
         leaf_significance(graph_, surface_, solid_, slices_, balls_, parts_, at_[joint], arc, joint);
-    return std::min(options_.significance > 0 ? s.value() / options_.significance : 1.0,
+    return std::min(options_.significance > 0 ? s.value() / (kNoTipCaution * options_.significance) : 1.0,
                     options_.smallest > 0 ? s.depth / options_.smallest : 1.0);
   }
 
@@ -242,23 +269,21 @@ class LeafPruner {
   ArcBalls balls_;
   ArcParts parts_;
   std::vector<double> score_;
+  std::vector<bool> has_tip_;
   std::vector<bool> stale_;
 };
 
 }  // namespace detail
 
-inline double LeafSignificance::value() const {
-  return half_width > 0 ? depth / half_width * std::sqrt(std::min(msp_ratio, 9.0)) : 0.0;
-}
-
 inline Index prune_branches(ArcGraph& graph, const SurfaceSnapshot& surface,
                             const BoundingVolumeHierarchy& solid, const VertexSlices& slices,
-                            const PruningOptions& options, const Execution& execution) {
+                            const std::vector<LimbTip>& tips, const PruningOptions& options,
+                            const Execution& execution) {
   validate(options);
   Index removed = 0;
   while (true) {
     dissolve_through_hubs(graph);
-    const Index swept = detail::LeafPruner(graph, surface, solid, slices, options, execution).sweep();
+    const Index swept = detail::LeafPruner(graph, surface, solid, slices, tips, options, execution).sweep();
     if (swept == 0) return removed;
     removed += swept;
   }

@@ -63,13 +63,46 @@ inline RoutingResult route_inside(ArcGraph& graph, const SurfaceSnapshot& surfac
   inner.prepare();
   const std::vector<Index> component = detail::hub_components(graph, surface);
   for (const Index h : hubs) {
-    const Index v = inner.nearest(graph.hub_position[h], component[h]);
+    // Another limb's chords may lie nearer than those of the hub's own part.
+    const auto own = [&](Index w) {
+      const Index a = graph.arc_of_vertex[w];
+      return graph.hub_of_vertex[w] == h ||
+             (a != kNone && (graph.arcs[a].hub[0] == h || graph.arcs[a].hub[1] == h));
+    };
+    Index v = inner.nearest(graph.hub_position[h], own);
+    if (v == kNone)
+      v = inner.nearest(graph.hub_position[h], [&](Index w) {
+        return component[h] == kNone || surface.component[w] == component[h];
+      });
     if (v == kNone) continue;
     graph.move_hub(h, inner.point(v));
     ++result.hubs_moved;
   }
   for (const Index a : arcs) detail::route_arc(graph.arcs[a], solid, inner, result);
   return result;
+}
+
+inline Index remove_crossing_leaves(ArcGraph& graph, const BoundingVolumeHierarchy& solid) {
+  Index removed = 0;
+  auto at = graph.incidence();
+  for (Index a = 0; a < graph.arc_count(); ++a) {
+    const Arc& arc = graph.arcs[a];
+    if (!arc.alive || arc.hub[0] == arc.hub[1]) continue;
+    bool crosses = false;
+    for (std::size_t i = 1; i < arc.points.size() && !crosses; ++i)
+      crosses = solid.segment_crosses(arc.points[i - 1], arc.points[i]);
+    if (!crosses) continue;
+    const auto [first, last] = arc.hub;
+    // Of an arc between two leaves the hub that lies deeper stays.
+    const bool first_is_leaf = at[first].size() == 1, last_is_leaf = at[last].size() == 1;
+    if (!first_is_leaf && !last_is_leaf) continue;
+    const bool keep_first = !first_is_leaf || (last_is_leaf && solid.distance(graph.hub_position[first]) >=
+                                                                   solid.distance(graph.hub_position[last]));
+    remove_leaf_arc(graph, a, keep_first ? first : last);
+    at = graph.incidence();
+    ++removed;
+  }
+  return removed;
 }
 
 }  // namespace mspskel

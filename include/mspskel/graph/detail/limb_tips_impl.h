@@ -1,0 +1,247 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "mspskel/mesh/inner_distance.h"
+
+namespace mspskel {
+namespace detail {
+
+// A depth from the shape's middle counts what a depth beyond balls leaves out: the way to the limb's base.
+inline constexpr double kTipCaution = 1.4;
+
+// The components of the surface beyond a distance that falls, and the limbs found when they meet.
+class LimbTipSearch {
+ public:
+  LimbTipSearch(const SurfaceSnapshot& surface, const VertexSlices& slices, const PruningOptions& options,
+                const std::vector<double>& distance)
+      : surface_(surface),
+        slices_(slices),
+        options_(options),
+        distance_(distance),
+        parent_(surface.position.size(), kNone),
+        part_(surface.position.size()),
+        walked_(surface.position.size(), 0) {}
+
+  std::vector<LimbTip> run() {
+    std::vector<LimbTip> tips;
+    std::vector<Index> order;
+    for (Index v = 0; v < surface_.vertex_count(); ++v)
+      if (std::isfinite(distance_[v])) order.push_back(v);
+    std::sort(order.begin(), order.end(), [&](Index a, Index b) {
+      return distance_[a] != distance_[b] ? distance_[a] > distance_[b] : a < b;
+    });
+    for (const Index v : order) add(v, tips);
+    return tips;
+  }
+
+ private:
+  struct Part {
+    Index top = kNone;
+    bool settled = false;  // its top is a tip, or tips have met in it
+    std::vector<Index> vertices;
+  };
+
+  Index root(Index v) {
+    while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
+    return v;
+  }
+
+  void add(Index v, std::vector<LimbTip>& tips) {
+    parent_[v] = v;
+    part_[v].top = v;
+    std::vector<Index> roots;
+    for_each_neighbour(surface_, v, [&](Index w) {
+      if (parent_[w] == kNone || w == v) return;
+      const Index r = root(w);
+      if (std::find(roots.begin(), roots.end(), r) == roots.end()) roots.push_back(r);
+    });
+    std::sort(roots.begin(), roots.end(),
+              [&](Index a, Index b) { return distance_[part_[a].top] > distance_[part_[b].top]; });
+    for (std::size_t i = 1; i < roots.size(); ++i) meet(roots[0], roots[i], v, tips);
+    const Index into = roots.empty() ? v : roots[0];
+    part_[into].vertices.push_back(v);
+    parent_[v] = into;
+  }
+
+  // At the saddle v the part with the higher top takes the other one.
+  void meet(Index high, Index low, Index v, std::vector<LimbTip>& tips) {
+    Part &a = part_[high], &b = part_[low];
+    if (!b.settled) b.settled = settle(b, v, tips);
+    if (b.settled && !a.settled) settle(a, v, tips);
+    a.settled = a.settled || b.settled;
+    if (b.vertices.size() > a.vertices.size()) std::swap(a.vertices, b.vertices);
+    a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
+    std::vector<Index>().swap(b.vertices);
+    parent_[low] = high;
+  }
+
+  bool settle(const Part& part, Index saddle, std::vector<LimbTip>& tips) {
+    LimbTip tip;
+    tip.vertex = part.top;
+    LeafSignificance& s = tip.significance;
+    s.depth = distance_[part.top] - distance_[saddle];
+    if (!(s.depth > options_.smallest)) return false;
+    std::vector<double> perimeters, widths;
+    for (const Index v : part.vertices) {
+      if (!slices_.valid[v]) continue;
+      perimeters.push_back(slices_.perimeter[v]);
+      widths.push_back(slice_half_width(slices_.perimeter[v], slices_.area[v]));
+    }
+    s.half_width = value_at_rank(std::move(widths), 0.5);
+    const double cap = 0.5 * std::min(s.depth, 3 * s.half_width);
+    for (const Index v : part.vertices)
+      if (distance_[v] > distance_[part.top] - cap) tip.cap.push_back(v);
+    const double own = value_at_rank(std::move(perimeters), 0.5);
+    if (!(own > 0)) return false;
+    s.msp_ratio = std::max(1.0, parent_perimeter(part, saddle, 2 * s.half_width) / own);
+    if (s.value() < kTipCaution * options_.significance) return false;
+    tips.push_back(std::move(tip));
+    return true;
+  }
+
+  // The median MSP round the saddle, the part itself left out.
+  double parent_perimeter(const Part& part, Index saddle, double reach) {
+    ++walk_;
+    for (const Index v : part.vertices) walked_[v] = walk_;
+    std::vector<Index> round{saddle};
+    walked_[saddle] = walk_;
+    std::vector<double> perimeters;
+    for (std::size_t i = 0; i < round.size(); ++i) {
+      if (slices_.valid[round[i]]) perimeters.push_back(slices_.perimeter[round[i]]);
+      for_each_neighbour(surface_, round[i], [&](Index w) {
+        if (walked_[w] == walk_ ||
+            (surface_.position[w] - surface_.position[saddle]).squaredNorm() >= reach * reach)
+          return;
+        walked_[w] = walk_;
+        round.push_back(w);
+      });
+    }
+    return value_at_rank(std::move(perimeters), 0.5);
+  }
+
+  const SurfaceSnapshot& surface_;
+  const VertexSlices& slices_;
+  const PruningOptions& options_;
+  const std::vector<double>& distance_;
+  std::vector<Index> parent_;  // kNone: not yet beyond
+  std::vector<Part> part_;     // of each root
+  std::vector<Index> walked_;  // the last walk that came by
+  Index walk_ = 0;
+};
+
+// The vertex of the greatest finite value in each component; kNone where there is none.
+template <class Value>
+std::vector<Index> greatest_of_components(const SurfaceSnapshot& surface, Value value) {
+  std::vector<Index> greatest(static_cast<std::size_t>(surface.component_count), kNone);
+  std::vector<double> most(greatest.size(), -std::numeric_limits<double>::infinity());
+  for (Index v = 0; v < surface.vertex_count(); ++v) {
+    if (surface.vertex_halfedge[v] == kNone) continue;
+    const Index c = surface.component[v];
+    const double x = value(v);
+    if (!(std::isfinite(x) && x > most[c])) continue;
+    most[c] = x;
+    greatest[c] = v;
+  }
+  return greatest;
+}
+
+// Distances along the surface from one vertex of each component; infinity where that is kNone.
+inline std::vector<double> surface_distances(const SurfaceSnapshot& surface, const std::vector<Index>& from) {
+  std::vector<double> distance(surface.position.size(), std::numeric_limits<double>::infinity());
+  for (const Index v : from)
+    if (v != kNone) distance[v] = 0;
+  extend_along_surface(surface, std::vector<std::uint8_t>(distance.size(), 0), distance);
+  return distance;
+}
+
+// A component with fewer than two tips keeps its longest way: the two ends of it count as tips, without a
+// depth.
+inline void add_longest_ways(const SurfaceSnapshot& surface, const std::vector<double>& distance,
+                             std::vector<LimbTip>& tips) {
+  constexpr double kCap = 0.85;  // of the way
+  std::vector<Index> from = greatest_of_components(surface, [&](Index v) { return distance[v]; });
+  std::vector<int> count(from.size(), 0);
+  for (const LimbTip& tip : tips) {
+    const Index c = surface.component[tip.vertex];
+    from[c] = ++count[c] == 1 ? tip.vertex : kNone;
+  }
+  if (std::all_of(from.begin(), from.end(), [](Index v) { return v == kNone; })) return;
+  const std::vector<double> way = surface_distances(surface, from);
+  const std::vector<Index> to = greatest_of_components(surface, [&](Index v) { return way[v]; });
+  const std::vector<double> back = surface_distances(surface, to);
+  const auto add = [&](Index c, Index end, const std::vector<double>& along) {
+    LimbTip tip;
+    tip.vertex = end;
+    for (Index v = 0; v < surface.vertex_count(); ++v)
+      if (surface.component[v] == c && along[v] > kCap * along[end]) tip.cap.push_back(v);
+    tips.push_back(std::move(tip));
+  };
+  for (Index c = 0; c < surface.component_count; ++c) {
+    if (from[c] == kNone) continue;
+    if (count[c] == 0) add(c, from[c], back);
+    add(c, to[c], way);
+  }
+}
+
+// A point in the solid near the middle of each component: in the slice of the vertex whose greatest distance
+// along the surface to four far vertices is least.
+inline std::vector<std::optional<Vector3>> middle_of_components(const SurfaceSnapshot& surface,
+                                                                const BoundingVolumeHierarchy& solid,
+                                                                const VertexSlices& slices) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  constexpr int kFar = 4;
+  const auto count = static_cast<std::size_t>(surface.component_count);
+  const std::size_t n = surface.position.size();
+  std::vector<Vector3> centroid(count, Vector3::Zero());
+  std::vector<double> area(count, 0.0);
+  for (std::size_t v = 0; v < n; ++v) {
+    if (surface.vertex_halfedge[v] == kNone) continue;
+    centroid[surface.component[v]] += surface.vertex_area[v] * surface.position[v];
+    area[surface.component[v]] += surface.vertex_area[v];
+  }
+  std::vector<Index> from = greatest_of_components(surface, [&](Index v) {
+    const Index c = surface.component[v];
+    return (area[c] * surface.position[v] - centroid[c]).squaredNorm();
+  });
+  std::vector<double> nearest(n, kInfinity), farthest(n, 0.0);
+  for (int k = 0; k < kFar; ++k) {
+    const std::vector<double> distance = surface_distances(surface, from);
+    for (std::size_t v = 0; v < n; ++v) {
+      nearest[v] = std::min(nearest[v], distance[v]);
+      farthest[v] = std::max(farthest[v], distance[v]);
+    }
+    from = greatest_of_components(surface, [&](Index v) { return nearest[v]; });
+  }
+  const std::vector<Index> least =
+      greatest_of_components(surface, [&](Index v) { return slices.valid[v] ? -farthest[v] : -kInfinity; });
+  std::vector<std::optional<Vector3>> middle(count);
+  for (std::size_t c = 0; c < count; ++c) {
+    const Index v = least[c];
+    if (v == kNone) continue;
+    const Vector3 inward = -surface.normal[v];
+    const Vector3 start = surface.position[v] + 1e-6 * inward;
+    if (solid.inside(slices.centre[v]))
+      middle[c] = slices.centre[v];
+    else if (const auto hit = solid.first_hit(start, inward))
+      middle[c] = start + 0.5 * hit->distance * inward;
+  }
+  return middle;
+}
+
+}  // namespace detail
+
+inline std::vector<LimbTip> find_limb_tips(const SurfaceSnapshot& surface,
+                                           const BoundingVolumeHierarchy& solid, const VertexSlices& slices,
+                                           const PruningOptions& options, const Execution& execution) {
+  const auto middle = detail::middle_of_components(surface, solid, slices);
+  const std::vector<double> distance = inner_distances(surface, solid, middle, execution);
+  std::vector<LimbTip> tips = detail::LimbTipSearch(surface, slices, options, distance).run();
+  detail::add_longest_ways(surface, distance, tips);
+  return tips;
+}
+
+}  // namespace mspskel

@@ -1,0 +1,36 @@
+// Which limbs a shape has, told from its surface alone: the tips that a skeleton's leaves have to reach.
+#pragma once
+
+#include <vector>
+
+#include "mspskel/base/progress.h"
+#include "mspskel/graph/limb_significance.h"
+#include "mspskel/mesh/bounding_volume_hierarchy.h"
+#include "mspskel/mesh/surface_snapshot.h"
+#include "mspskel/slice/vertex_slices.h"
+
+namespace mspskel {
+
+struct LimbTip {
+  Index vertex = kNone;  // the one farthest from the middle of the shape
+  // Its depth: how far the vertex is beyond where the limb meets what is farther still.
+  LeafSignificance significance;
+  std::vector<Index> cap;  // the end: the outer half of that depth, and at most 1.5 half widths
+};
+
+// The maxima of the inner distance from the middle of each component, as far as they are significant: where
+// the parts of the surface beyond a distance grow together as the distance falls, the limbs that they stand
+// for meet, so a limb is as deep as its maximum is persistent (Edelsbrunner, Letscher and Zomorodian 2002,
+// "Topological persistence and simplification"). Noise moves no depth by more than twice its size, and the
+// surface's triangles do not matter. The width of a limb is the median of its slices. The limb that reaches
+// farthest is measured where it meets the first significant one. A limb across the way to another one, such
+// as an ear, is measured less than its length; what goes round a handle has a maximum too, though no limb. In
+// a component with fewer than two such limbs the ends of its longest way are tips of depth 0. Cost: a segment
+// query a vertex, O(vertices log vertices).
+std::vector<LimbTip> find_limb_tips(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
+                                    const VertexSlices& slices, const PruningOptions& options,
+                                    const Execution& execution = {});
+
+}  // namespace mspskel
+
+#include "mspskel/graph/detail/limb_tips_impl.h"

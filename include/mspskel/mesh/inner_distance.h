@@ -1,0 +1,30 @@
+// Distances through the solid from a point in it to the vertices of its surface.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "mspskel/base/progress.h"
+#include "mspskel/mesh/bounding_volume_hierarchy.h"
+#include "mspskel/mesh/surface_snapshot.h"
+
+namespace mspskel {
+
+// Shortest ways along the surface from the vertices that have a value in `distance` to the others of their
+// component; infinity where there is none. Ways run along edges and straight across pairs of faces. A value
+// that is marked in `fixed` stays as it is. Cost: O(vertices log vertices).
+void extend_along_surface(const SurfaceSnapshot& surface, const std::vector<std::uint8_t>& fixed,
+                          std::vector<double>& distance);
+
+// From one point a component of the surface: the length of the straight way to each of the component's
+// vertices where the solid leaves it free, and of the shortest way on along the surface to the others. That
+// is an upper bound of the inner distance (Ling and Jacobs 2007, "Shape classification using the
+// inner-distance"). Infinity in components without a point. Cost: a segment query a vertex, then as above.
+std::vector<double> inner_distances(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
+                                    const std::vector<std::optional<Vector3>>& from,
+                                    const Execution& execution = {});
+
+}  // namespace mspskel
+
+#include "mspskel/mesh/detail/inner_distance_impl.h"
