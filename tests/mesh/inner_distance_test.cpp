@@ -21,7 +21,7 @@ TEST_CASE("In a ball every way from inside is straight") {
   const SurfaceSnapshot s = sample("sphere");
   const BoundingVolumeHierarchy solid(s);
   const Vector3 from(0.1, -0.05, 0.02);
-  const std::vector<double> distance = inner_distances(s, solid, {from});
+  const std::vector<double> distance = inner_distances(s, SurfaceWays(s), solid, {from});
   for (Index v = 0; v < s.vertex_count(); ++v)
     CHECK(distance[v] == Approx((s.position[v] - from).norm()).epsilon(1e-12));
 }
@@ -34,7 +34,7 @@ TEST_CASE("Inner distances are no shorter than the straight way and grow no fast
     const auto hit = solid.first_hit(s.position[0] + 1e-6 * inward, inward);
     REQUIRE(hit);
     const Vector3 from = s.position[0] + 0.5 * hit->distance * inward;
-    const std::vector<double> distance = inner_distances(s, solid, {from});
+    const std::vector<double> distance = inner_distances(s, SurfaceWays(s), solid, {from});
     for (Index v = 0; v < s.vertex_count(); ++v) {
       INFO(name << ", vertex " << v);
       CHECK(distance[v] >= (s.position[v] - from).norm() * (1 - 1e-12));
@@ -59,7 +59,7 @@ TEST_CASE("Along a prism ways cross faces") {
       from = v;
   std::vector<double> distance(s.position.size(), std::numeric_limits<double>::infinity());
   distance[from] = 0;
-  extend_along_surface(s, std::vector<std::uint8_t>(s.position.size(), 0), distance);
+  SurfaceWays(s).extend(std::vector<std::uint8_t>(s.position.size(), 0), distance);
   const double radius = s.position[from].head<2>().norm();
   const auto angle = [&](Index v) { return std::atan2(s.position[v].y(), s.position[v].x()); };
   double longest = 1;
@@ -85,7 +85,7 @@ TEST_CASE("A component without a point is out of reach") {
   const auto hit = solid.first_hit(s.position[0] + 1e-6 * inward, inward);
   REQUIRE(hit);
   from[s.component[0]] = s.position[0] + 0.5 * hit->distance * inward;
-  const std::vector<double> distance = inner_distances(s, solid, from);
+  const std::vector<double> distance = inner_distances(s, SurfaceWays(s), solid, from);
   for (Index v = 0; v < s.vertex_count(); ++v)
     CHECK(std::isfinite(distance[v]) == (s.component[v] == s.component[0]));
 }

@@ -13,11 +13,12 @@ inline Index most_uncovered(const SurfaceSnapshot& surface, const ArcBalls& ball
   double farthest = least;
   for (const Index v : vertices) {
     const Vector3& x = surface.position[v];
-    const double outside_tip = (x - balls.hub[tip].centre).norm() - balls.hub[tip].radius;
-    if (outside_tip <= farthest || distance_outside(balls.arc[arc], x, outside_tip) < outside_tip) continue;
-    double outside = distance_outside(balls.hub, x, farthest);
+    const double outside_tip = balls.hub[tip].distance_outside(x);
+    if (outside_tip <= farthest || balls.arc[arc].distance_outside(x, outside_tip) < outside_tip) continue;
+    double outside = outside_tip;
+    for (const Ball& hub : balls.hub) outside = std::min(outside, hub.distance_outside(x));
     for (std::size_t b = 0; b < balls.arc.size() && outside > farthest; ++b)
-      outside = std::min(outside, distance_outside(balls.arc[b], x, farthest));
+      outside = balls.arc[b].distance_outside(x, farthest, outside);
     if (outside > farthest) {
       farthest = outside;
       best = v;

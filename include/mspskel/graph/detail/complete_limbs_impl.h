@@ -13,6 +13,9 @@ inline constexpr double kCaution = 1.25;
 // outside the ball in it; neither is a limb.
 inline constexpr double kCorner = 0.75;
 
+// What has less than this share of the evidence before its way is centred has too little afterwards as well.
+inline constexpr double kDoubt = 0.5;
+
 // A point of the graph: a hub, or an inner point of an arc.
 struct GraphPoint {
   Index hub = kNone, arc = kNone;
@@ -34,12 +37,21 @@ class LimbCompletion {
         step_(step),
         inner_(inner) {
     const ArcBalls balls(graph, solid, execution);
-    outside_.assign(surface.position.size(), std::numeric_limits<double>::infinity());
-    for (Index h = 0; h < graph.hub_count(); ++h)
-      if (graph.hub_alive[h]) cover({balls.hub[h]});
-    for (const auto& arc : balls.arc) cover(arc);
-    for (Index v = 0; v < surface.vertex_count(); ++v)
-      if (graph.arc_of_vertex[v] == kNone && graph.hub_of_vertex[v] == kNone) outside_[v] = 0;
+    outside_.assign(surface.position.size(), 0.0);
+    parallel_for(
+        surface.vertex_count(), "arcs", execution, [] { return 0; },
+        [&](Index v, int) {
+          const Index own = graph.arc_of_vertex[v];
+          if (own == kNone && graph.hub_of_vertex[v] == kNone) return;
+          const Vector3& x = surface.position[v];
+          double outside = std::numeric_limits<double>::infinity();
+          for (Index h = 0; h < graph.hub_count(); ++h)
+            if (graph.hub_alive[h]) outside = std::min(outside, balls.hub[h].distance_outside(x));
+          // The vertex's own arc first: few balls of others are nearer.
+          if (own != kNone) outside = balls.arc[own].distance_outside(x, kNever, outside);
+          for (const BallChain& chain : balls.arc) outside = chain.distance_outside(x, kNever, outside);
+          outside_[v] = outside;
+        });
     find_components();
   }
 
@@ -76,11 +88,11 @@ class LimbCompletion {
     return added;
   }
 
-  void cover(const std::vector<Ball>& balls) {
-    if (balls.empty()) return;
+  static constexpr double kNever = -std::numeric_limits<double>::infinity();
+
+  void cover(const BallChain& balls) {
     for (std::size_t v = 0; v < outside_.size(); ++v)
-      for (const Ball& ball : balls)
-        outside_[v] = std::min(outside_[v], (surface_.position[v] - ball.centre).norm() - ball.radius);
+      outside_[v] = balls.distance_outside(surface_.position[v], kNever, outside_[v]);
   }
 
   // What lies round a vertex whose arc would be insignificant is not tried again.
@@ -160,6 +172,7 @@ class LimbCompletion {
     GraphPoint start;
     std::vector<Vector3> way;
     if (!find_way(v, start, way)) return false;
+    if (!is_tip && !deserves_arc(way, v, kDoubt)) return false;
     // A few rounds of centring with the start held show the limb's true width.
     ArcGraph alone;
     alone.add_hub(way.front());
@@ -173,14 +186,17 @@ class LimbCompletion {
     one_thread.threads = 1;
     center_arcs(alone, solid_, few, one_thread);
     way = alone.arcs[0].points;
-    const Ball ball{way.front(), solid_.distance(way.front())};
-    if (!is_tip && (outside_[v] < kCorner * ball.radius ||
-                    significance(way, ball, outside_[v]) < kCaution * options_.significance))
-      return false;
+    if (!is_tip && !deserves_arc(way, v, 1.0)) return false;
     if (solid_.segment_crosses(start.position, way.front())) return false;
     way.insert(way.begin(), start.position);
     add(start, way, surface_.component[v]);
     return true;
+  }
+
+  bool deserves_arc(const std::vector<Vector3>& way, Index v, double share) const {
+    const Ball ball{way.front(), solid_.distance(way.front())};
+    return outside_[v] >= share * kCorner * ball.radius &&
+           significance(way, ball, outside_[v]) >= share * kCaution * options_.significance;
   }
 
   double significance(const std::vector<Vector3>& way, const Ball& ball, double depth) const {
@@ -224,7 +240,7 @@ class LimbCompletion {
     std::vector<Ball> balls;
     for (std::size_t i = 1; i < way.size(); ++i) balls.push_back({way[i], solid_.distance(way[i])});
     const std::vector<double> before = outside_;
-    cover(balls);
+    cover(BallChain(std::move(balls)));
     for (std::size_t v = 0; v < outside_.size(); ++v)
       if (surface_.component[v] == component && before[v] > 0 && outside_[v] < before[v]) {
         graph_.arc_of_vertex[v] = added;

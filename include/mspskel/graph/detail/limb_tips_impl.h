@@ -150,18 +150,19 @@ std::vector<Index> greatest_of_components(const SurfaceSnapshot& surface, Value 
 }
 
 // Distances along the surface from one vertex of each component; infinity where that is kNone.
-inline std::vector<double> surface_distances(const SurfaceSnapshot& surface, const std::vector<Index>& from) {
+inline std::vector<double> surface_distances(const SurfaceSnapshot& surface, const SurfaceWays& ways,
+                                             const std::vector<Index>& from) {
   std::vector<double> distance(surface.position.size(), std::numeric_limits<double>::infinity());
   for (const Index v : from)
     if (v != kNone) distance[v] = 0;
-  extend_along_surface(surface, std::vector<std::uint8_t>(distance.size(), 0), distance);
+  ways.extend(std::vector<std::uint8_t>(distance.size(), 0), distance);
   return distance;
 }
 
 // A component with fewer than two tips keeps its longest way: the two ends of it count as tips, without a
 // depth.
-inline void add_longest_ways(const SurfaceSnapshot& surface, const std::vector<double>& distance,
-                             std::vector<LimbTip>& tips) {
+inline void add_longest_ways(const SurfaceSnapshot& surface, const SurfaceWays& ways,
+                             const std::vector<double>& distance, std::vector<LimbTip>& tips) {
   constexpr double kCap = 0.85;  // of the way
   std::vector<Index> from = greatest_of_components(surface, [&](Index v) { return distance[v]; });
   std::vector<int> count(from.size(), 0);
@@ -170,9 +171,9 @@ inline void add_longest_ways(const SurfaceSnapshot& surface, const std::vector<d
     from[c] = ++count[c] == 1 ? tip.vertex : kNone;
   }
   if (std::all_of(from.begin(), from.end(), [](Index v) { return v == kNone; })) return;
-  const std::vector<double> way = surface_distances(surface, from);
+  const std::vector<double> way = surface_distances(surface, ways, from);
   const std::vector<Index> to = greatest_of_components(surface, [&](Index v) { return way[v]; });
-  const std::vector<double> back = surface_distances(surface, to);
+  const std::vector<double> back = surface_distances(surface, ways, to);
   const auto add = [&](Index c, Index end, const std::vector<double>& along) {
     LimbTip tip;
     tip.vertex = end;
@@ -190,6 +191,7 @@ inline void add_longest_ways(const SurfaceSnapshot& surface, const std::vector<d
 // A point in the solid near the middle of each component: in the slice of the vertex whose greatest distance
 // along the surface to four far vertices is least.
 inline std::vector<std::optional<Vector3>> middle_of_components(const SurfaceSnapshot& surface,
+                                                                const SurfaceWays& ways,
                                                                 const BoundingVolumeHierarchy& solid,
                                                                 const VertexSlices& slices) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -209,7 +211,7 @@ inline std::vector<std::optional<Vector3>> middle_of_components(const SurfaceSna
   });
   std::vector<double> nearest(n, kInfinity), farthest(n, 0.0);
   for (int k = 0; k < kFar; ++k) {
-    const std::vector<double> distance = surface_distances(surface, from);
+    const std::vector<double> distance = surface_distances(surface, ways, from);
     for (std::size_t v = 0; v < n; ++v) {
       nearest[v] = std::min(nearest[v], distance[v]);
       farthest[v] = std::max(farthest[v], distance[v]);
@@ -237,10 +239,11 @@ inline std::vector<std::optional<Vector3>> middle_of_components(const SurfaceSna
 inline std::vector<LimbTip> find_limb_tips(const SurfaceSnapshot& surface,
                                            const BoundingVolumeHierarchy& solid, const VertexSlices& slices,
                                            const PruningOptions& options, const Execution& execution) {
-  const auto middle = detail::middle_of_components(surface, solid, slices);
-  const std::vector<double> distance = inner_distances(surface, solid, middle, execution);
+  const SurfaceWays ways(surface);
+  const auto middle = detail::middle_of_components(surface, ways, solid, slices);
+  const std::vector<double> distance = inner_distances(surface, ways, solid, middle, execution);
   std::vector<LimbTip> tips = detail::LimbTipSearch(surface, slices, options, distance).run();
-  detail::add_longest_ways(surface, distance, tips);
+  detail::add_longest_ways(surface, ways, distance, tips);
   return tips;
 }
 

@@ -2,48 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
+
+#include "mspskel/graph/detail/arc_balls.h"
 
 namespace mspskel {
 
 namespace detail {
-
-struct Ball {
-  Vector3 centre;
-  double radius;
-};
-
-// The balls of every arc's points, and of every hub.
-struct ArcBalls {
-  std::vector<std::vector<Ball>> arc;
-  std::vector<Ball> hub;
-
-  ArcBalls(const ArcGraph& graph, const BoundingVolumeHierarchy& solid, const Execution& execution)
-      : arc(graph.arcs.size()) {
-    for (const Vector3& x : graph.hub_position) hub.push_back({x, 0.0});
-    for (std::size_t a = 0; a < arc.size(); ++a)
-      if (graph.arcs[a].alive)
-        for (std::size_t i = 1; i + 1 < graph.arcs[a].points.size(); ++i)
-          arc[a].push_back({graph.arcs[a].points[i], 0.0});
-    std::vector<Ball*> all;
-    for (Index h = 0; h < graph.hub_count(); ++h)
-      if (graph.hub_alive[h]) all.push_back(&hub[h]);
-    for (auto& balls : arc)
-      for (Ball& ball : balls) all.push_back(&ball);
-    parallel_for(
-        static_cast<Index>(all.size()), "arcs", execution, [] { return 0; },
-        [&](Index i, int) { all[i]->radius = solid.distance(all[i]->centre); });
-  }
-};
-
-inline double distance_outside(const std::vector<Ball>& balls, const Vector3& x, double stop) {
-  double best = std::numeric_limits<double>::infinity();
-  for (const Ball& ball : balls) {
-    best = std::min(best, (x - ball.centre).norm() - ball.radius);
-    if (best < stop) break;
-  }
-  return best;
-}
 
 // A leaf arc of which the surface itself tells nothing needs better evidence: what it is measured by changes
 // with the rest of the skeleton.
@@ -151,7 +116,7 @@ inline LeafSignificance leaf_significance(const ArcGraph& graph, const SurfaceSn
     double outside = (x - hub.centre).norm() - covered;
     for (std::size_t b = 0; b < balls.arc.size() && outside > s.depth; ++b)
       if (static_cast<Index>(b) != a && graph.arcs[b].alive)
-        outside = std::min(outside, distance_outside(balls.arc[b], x, s.depth));
+        outside = std::min(outside, balls.arc[b].distance_outside(x, s.depth));
     s.depth = std::max(s.depth, outside);
   }
   if (own_perimeter > 0) s.msp_ratio = std::max(1.0, parent.perimeter / own_perimeter);
@@ -197,13 +162,18 @@ class LeafPruner {
         slices_(slices),
         options_(options),
         at_(graph.incidence()),
-        balls_(graph, solid, execution),
         parts_(graph, at_),
         score_(parts_.leaves.size()),
         has_tip_(parts_.leaves.size(), false),
         stale_(parts_.leaves.size(), false) {
     for (const std::size_t leaf : leaves_of_tips(graph, parts_, tips))
       if (leaf != kNoLeaf) has_tip_[leaf] = true;
+    // Once the hairs are gone every leaf arc has its tip, and nothing is to be measured.
+    if (std::all_of(has_tip_.begin(), has_tip_.end(), [](bool has) { return has; })) {
+      std::fill(score_.begin(), score_.end(), 1.0);
+      return;
+    }
+    balls_.emplace(graph, solid, execution);
     parallel_for(
         static_cast<Index>(score_.size()), "arcs", execution, [] { return 0; },
         [&](Index i, int) { score_[i] = score(static_cast<std::size_t>(i)); }, 1);
@@ -238,7 +208,7 @@ class LeafPruner {
     if (has_tip_[i]) return 1.0;
     const auto [arc, joint] = parts_.leaves[i];
     const LeafSignificance s =
-        leaf_significance(graph_, surface_, solid_, slices_, balls_, parts_, at_[joint], arc, joint);
+        leaf_significance(graph_, surface_, solid_, slices_, *balls_, parts_, at_[joint], arc, joint);
     return std::min(options_.significance > 0 ? s.value() / (kNoTipCaution * options_.significance) : 1.0,
                     options_.smallest > 0 ? s.depth / options_.smallest : 1.0);
   }
@@ -254,8 +224,8 @@ class LeafPruner {
   }
 
   bool near(Index a, Index b) const {
-    for (const Ball& p : balls_.arc[a])
-      for (const Ball& q : balls_.arc[b])
+    for (const Ball& p : balls_->arc[a].balls())
+      for (const Ball& q : balls_->arc[b].balls())
         if ((p.centre - q.centre).norm() < p.radius + q.radius) return true;
     return false;
   }
@@ -266,8 +236,8 @@ class LeafPruner {
   const VertexSlices& slices_;
   const PruningOptions& options_;
   std::vector<std::vector<Index>> at_;
-  ArcBalls balls_;
   ArcParts parts_;
+  std::optional<ArcBalls> balls_;
   std::vector<double> score_;
   std::vector<bool> has_tip_;
   std::vector<bool> stale_;

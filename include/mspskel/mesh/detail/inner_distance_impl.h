@@ -4,7 +4,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <queue>
 #include <utility>
 
 namespace mspskel {
@@ -28,39 +27,46 @@ inline double across_opposite_edge(const SurfaceSnapshot& surface, Index h, Inde
 
 }  // namespace detail
 
-inline void extend_along_surface(const SurfaceSnapshot& surface, const std::vector<std::uint8_t>& fixed,
-                                 std::vector<double>& distance) {
+inline SurfaceWays::SurfaceWays(const SurfaceSnapshot& surface) : surface_(surface) {
+  for (Index h = 0; h < surface.halfedge_count(); ++h) {
+    edge_.push_back((surface.position[surface.target(h)] - surface.position[surface.origin[h]]).norm());
+    const Index opposite = surface.twin[SurfaceSnapshot::next(h)];
+    across_.push_back(detail::across_opposite_edge(surface, h, surface.apex(opposite)));
+  }
+}
+
+inline void SurfaceWays::extend(const std::vector<std::uint8_t>& fixed, std::vector<double>& distance) const {
   using Entry = std::pair<double, Index>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
+  std::vector<Entry> queue;
   const auto offer = [&](Index v, double value) {
     if (fixed[v] || !(value < distance[v])) return;
     distance[v] = value;
-    queue.push({value, v});
+    queue.push_back({value, v});
+    std::push_heap(queue.begin(), queue.end(), std::greater<Entry>());
   };
   const auto visit = [&](Index v) {
-    const Index first = surface.vertex_halfedge[v];
+    const Index first = surface_.vertex_halfedge[v];
     if (first == kNone) return;
     Index h = first;
     do {
-      const Index w = surface.target(h);
-      if (!fixed[w]) offer(w, distance[v] + (surface.position[w] - surface.position[v]).norm());
-      const Index across = surface.apex(surface.twin[SurfaceSnapshot::next(h)]);
-      if (!fixed[across]) offer(across, distance[v] + detail::across_opposite_edge(surface, h, across));
-      h = surface.next_outgoing(h);
+      offer(surface_.target(h), distance[v] + edge_[h]);
+      offer(surface_.apex(surface_.twin[SurfaceSnapshot::next(h)]), distance[v] + across_[h]);
+      h = surface_.next_outgoing(h);
     } while (h != first);
   };
   std::vector<Index> given;
-  for (Index v = 0; v < surface.vertex_count(); ++v)
+  for (Index v = 0; v < surface_.vertex_count(); ++v)
     if (std::isfinite(distance[v])) given.push_back(v);
   for (const Index v : given) visit(v);
   while (!queue.empty()) {
-    const auto [value, v] = queue.top();
-    queue.pop();
+    std::pop_heap(queue.begin(), queue.end(), std::greater<Entry>());
+    const auto [value, v] = queue.back();
+    queue.pop_back();
     if (value == distance[v]) visit(v);
   }
 }
 
-inline std::vector<double> inner_distances(const SurfaceSnapshot& surface,
+inline std::vector<double> inner_distances(const SurfaceSnapshot& surface, const SurfaceWays& ways,
                                            const BoundingVolumeHierarchy& solid,
                                            const std::vector<std::optional<Vector3>>& from,
                                            const Execution& execution) {
@@ -77,7 +83,7 @@ inline std::vector<double> inner_distances(const SurfaceSnapshot& surface,
         distance[v] = way.norm();
         seen[v] = 1;
       });
-  extend_along_surface(surface, seen, distance);
+  ways.extend(seen, distance);
   return distance;
 }
 
