@@ -365,6 +365,31 @@ TEST_CASE("A limb without an arc gets one, and nothing is added where all have t
   CHECK(nearest < 0.5);
 }
 
+TEST_CASE("No place is completed twice") {
+  for (const std::string name : {"cup", "bowl", "plate", "quadruped", "octoped"}) {
+    const Solid solid(sample(name, 3200));
+    const auto middle = solid.hierarchy.first_hit(solid.surface.position[0] - 1e-6 * solid.surface.normal[0],
+                                                  -solid.surface.normal[0]);
+    REQUIRE(middle);
+    ArcGraph graph;
+    graph.add_hub(solid.surface.position[0] - 0.4 * middle->distance * solid.surface.normal[0]);
+    graph.add_hub(solid.surface.position[0] - 0.6 * middle->distance * solid.surface.normal[0]);
+    line(graph, 0, 1);
+    map_to_nearest(graph, solid.surface.position);
+    PruningOptions lenient;
+    lenient.significance = 0.3;
+    complete_limbs(graph, solid.surface, solid.hierarchy, solid.slices(), {}, lenient, 0.01);
+    const auto at = graph.incidence();
+    std::vector<Vector3> ends;
+    for (Index h = 2; h < graph.hub_count(); ++h)
+      if (at[h].size() == 1) ends.push_back(graph.hub_position[h]);
+    INFO(name << ", " << ends.size() << " ends");
+    CHECK_FALSE(ends.empty());
+    for (std::size_t i = 0; i < ends.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j) CHECK((ends[i] - ends[j]).norm() > 1e-3);
+  }
+}
+
 TEST_CASE("A star in a ball is pruned to one arc") {
   const Solid solid(sphere(200));
   ArcGraph graph;

@@ -62,11 +62,10 @@ class LimbCompletion {
       const auto farthest = std::max_element(outside_.begin(), outside_.end());
       if (!(*farthest > std::max(options_.smallest, step_))) break;
       const Index v = static_cast<Index>(farthest - outside_.begin());
-      if (try_limb(v, false)) {
-        ++added;
-      } else {
-        dismiss(v);
-      }
+      const double before = *farthest;
+      if (try_limb(v, false)) ++added;
+      // Tried once, whether or not: an arc may end far from what it was led to.
+      if (outside_[v] > 0.5 * before) dismiss(v);
     }
     return added;
   }
