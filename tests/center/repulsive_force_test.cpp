@@ -133,6 +133,25 @@ TEST_CASE("area field equals the contour integral of the divergence theorem") {
   }
 }
 
+TEST_CASE("the area field holds beside and on its contour, where segments are seen under any angle") {
+  const PlanarRegion region(rectangle(2, 1, 1));
+  for (const double height : {0.49, 0.4999999, 0.5, 0.5000001, 0.51})
+    for (const double x : {-0.9, 0.0, 0.3}) {
+      const Vector2 p(x, height);
+      const FieldValue value = area_field(region, p);
+      CAPTURE(height, x);
+      CHECK(std::isfinite(value.potential));
+      // A segment's share of the Hessian's trace is the angle under which it is seen.
+      if (height != 0.5) CHECK(value.xx + value.yy == Approx(height < 0.5 ? 2 * kPi : 0.0).margin(1e-7));
+      const FieldValue mirrored = area_field(region, {-x, -height});
+      CHECK((value.force + mirrored.force).norm() < 1e-11);
+      CHECK(value.potential == Approx(mirrored.potential).epsilon(1e-11));
+    }
+  const FieldValue corner = area_field(region, region.point(0));
+  CHECK(std::isfinite(corner.potential));
+  CHECK(std::isfinite(corner.force.norm()));
+}
+
 TEST_CASE("area field equals a sum over small cells of the region") {
   const PlanarRegion region(rectangle(2, 1, 1));
   const Vector2 p(0.5, 0.2);

@@ -14,8 +14,10 @@ namespace mspskel {
 
 enum class HoleSearch {
   kIgnore,  // the slice's own contour alone, as the thesis has it
-  kProbe,   // look for holes where rays from the skeletal point meet something else than the contour
-  kAll,     // look for holes everywhere; costs the faces in the box round each slice
+  // Look for holes where rays from the skeletal point meet something else than the contour: two opposite rays
+  // everywhere, eight at the neighbours of slices with holes.
+  kProbe,
+  kAll,  // look for holes everywhere; costs the faces in the box round each slice
 };
 
 struct SkeletonMeshOptions {

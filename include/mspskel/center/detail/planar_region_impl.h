@@ -9,7 +9,8 @@ namespace mspskel {
 inline PlaneFrame make_plane_frame(const std::vector<Vector3>& points, const Vector3& normal) {
   PlaneFrame frame;
   frame.origin.setZero();
-  for (const Vector3& p : points) frame.origin += p / static_cast<double>(points.size());
+  for (const Vector3& p : points) frame.origin += p;
+  frame.origin /= static_cast<double>(points.size());
   const Vector3 out = points.front() - frame.origin;
   frame.u = out - normal.dot(out) * normal;
   const double norm = frame.u.norm();
@@ -49,8 +50,8 @@ inline void PlanarRegion::add_ring(const std::vector<Vector2>& polygon, double s
   ring.points = static_cast<Index>(polygon.size());
   ring.segments = (ring.points + kBlock - 1) / kBlock * kBlock;
   double twice = 0;
-  for (Index i = 0; i < ring.points; ++i)
-    twice += cross(polygon[i] - polygon[0], polygon[(i + 1) % ring.points] - polygon[0]);
+  for (Index i = 1; i + 1 < ring.points; ++i)
+    twice += cross(polygon[i] - polygon[0], polygon[i + 1] - polygon[0]);
   ring.area = sign * std::abs(twice) / 2;
   const bool reverse = twice * sign < 0;  // the first point stays first
   const auto drop_tail = [&](std::vector<double>& a, std::size_t n) { a.resize(n, 0.0); };
@@ -63,15 +64,16 @@ inline void PlanarRegion::add_ring(const std::vector<Vector2>& polygon, double s
   }
   for (std::size_t i = begin; i < end; ++i) {
     const Index k = static_cast<Index>(i - begin);
-    const Index source = k >= ring.points ? 0 : (reverse ? (ring.points - k) % ring.points : k);
+    const Index source = k == 0 || k >= ring.points ? 0 : (reverse ? ring.points - k : k);
     x_[i] = polygon[source].x();
     y_[i] = polygon[source].y();
   }
   for (std::size_t i = begin; i + 1 < end; ++i) {
     const double dx = x_[i + 1] - x_[i], dy = y_[i + 1] - y_[i], length = std::sqrt(dx * dx + dy * dy);
+    const double inverse = length > 1e-300 ? 1 / length : 0.0;
     length_[i] = length;
-    tx_[i] = length > 0 ? dx / length : 0.0;
-    ty_[i] = length > 0 ? dy / length : 0.0;
+    tx_[i] = dx * inverse;
+    ty_[i] = dy * inverse;
     ring.perimeter += length;
   }
   rings_.push_back(ring);

@@ -53,6 +53,69 @@ struct RepulsiveSums {
   }
 };
 
+// Places relative to p, distances and their logarithms of up to kPoints consecutive points of a ring, shared
+// by the segments at each point.
+struct LogTable {
+  static constexpr Index kPoints = PointTable::kPoints;
+  double x[kPoints + PlanarRegion::kBlock], y[kPoints + PlanarRegion::kBlock];
+  double r[kPoints + PlanarRegion::kBlock], log[kPoints + PlanarRegion::kBlock];
+
+  // Points begin .. begin + count − 1; whole blocks are written.
+  void fill(const PlanarRegion& region, Index begin, Index count, const Vector2& p) {
+    // A contour point at p itself: its terms tend to 0 with the factors of the logarithm, which has to be
+    // finite for that.
+    constexpr double kTiny = 1e-300;
+    for (Index i = 0; i < count; i += PlanarRegion::kBlock) {
+      const Block dx = BlockMap(region.x() + begin + i) - p.x(),
+                  dy = BlockMap(region.y() + begin + i) - p.y(), square = dx * dx + dy * dy;
+      BlockOut{x + i} = dx;
+      BlockOut{y + i} = dy;
+      BlockOut{r + i} = square.sqrt();
+      BlockOut{log + i} = 0.5 * square.max(kTiny).log();
+    }
+  }
+};
+
+// The angle from (1, 0) to (cosine, sine) / radius, −π to π: eight times that of the point whose tangent two
+// halvings of the quarter angle give, a number below tan(π/8), for which a polynomial has 13 digits
+// (interpolated at Chebyshev's nodes).
+inline Block angle_of(const Block& sine, const Block& cosine, const Block& radius) {
+  constexpr double kTiny = 1e-300;
+  const Block square = sine * sine, half = cosine + radius;
+  const Block quarter = half + (half * half + square).sqrt();
+  const Block eighth = quarter + (quarter * quarter + square).sqrt();
+  const Block t = sine / eighth.max(kTiny), z = t * t;
+  Block sum = 0.03066449210747942 * z - 0.058746435882282115;
+  sum = sum * z + 0.07563741384790575;
+  sum = sum * z - 0.09078397493924625;
+  sum = sum * z + 0.11110385477729276;
+  sum = sum * z - 0.14285690442522142;
+  sum = sum * z + 0.19999999605285537;
+  sum = sum * z - 0.3333333333080634;
+  return 8.0 * t * (sum * z + 0.9999999999999735);
+}
+
+struct AreaSums {
+  Block potential = Block::Zero(), fx = Block::Zero(), fy = Block::Zero();
+  Block xx = Block::Zero(), xy = Block::Zero(), yy = Block::Zero();
+
+  void add(const LogTable& p, Index i, const double* tangent_x, const double* tangent_y,
+           const double* segment_length) {
+    const BlockMap ax(p.x + i), ay(p.y + i), bx(p.x + i + 1), by(p.y + i + 1), ra(p.r + i), rb(p.r + i + 1),
+        log_a(p.log + i), log_b(p.log + i + 1), tx(tangent_x), ty(tangent_y), length(segment_length);
+    const Block angle = angle_of(ax * by - ay * bx, ax * bx + ay * by, ra * rb);
+    const Block h = ax * ty - ay * tx, stretch = log_b - log_a;  // the outward normal is (ty, −tx)
+    const Block qx = angle * ty + stretch * tx, qy = stretch * ty - angle * tx;
+    fx += h * qx;
+    fy += h * qy;
+    xx += qx * ty;
+    xy += 0.5 * (qy * ty - qx * tx);
+    yy -= qy * tx;
+    potential +=
+        0.5 * h * ((bx * tx + by * ty) * log_b - (ax * tx + ay * ty) * log_a + h * angle - 1.5 * length);
+  }
+};
+
 }  // namespace detail::slice_centre
 
 inline ForceSamples::ForceSamples(const std::vector<Vector2>& points)
@@ -104,29 +167,23 @@ inline FieldValue repulsive_field(const PlanarRegion& region, const Vector2& p) 
 }
 
 inline FieldValue area_field(const PlanarRegion& region, const Vector2& p) {
-  FieldValue value;
-  const double *tx = region.tangent_x(), *ty = region.tangent_y(), *length = region.length();
-  for (const PlanarRegion::Ring& ring : region.rings()) {
-    Vector2 a = region.point(ring.begin) - p;
-    double log_a = 0.5 * std::log(a.squaredNorm());
-    for (Index i = ring.begin; i < ring.begin + ring.points; ++i) {
-      const Vector2 b = region.point(i + 1) - p, t(tx[i], ty[i]), n(ty[i], -tx[i]);
-      const double log_b = 0.5 * std::log(b.squaredNorm());
-      // A contour point at p itself: its terms tend to 0 with h and s, so drop them rather than keep ∞ · 0.
-      if (length[i] > 0 && std::isfinite(log_a) && std::isfinite(log_b)) {
-        const double angle = std::atan2(cross(a, b), a.dot(b)), h = a.dot(n), stretch = log_b - log_a;
-        const Vector2 q = angle * n + stretch * t;
-        value.force += h * q;
-        value.xx += q.x() * n.x();
-        value.xy += 0.5 * (q.x() * n.y() + q.y() * n.x());
-        value.yy += q.y() * n.y();
-        const double logs = b.dot(t) * log_b - a.dot(t) * log_a - length[i] + h * angle;
-        value.potential += 0.5 * h * (logs - 0.5 * length[i]);
-      }
-      a = b;
-      log_a = log_b;
+  detail::slice_centre::LogTable table;
+  detail::slice_centre::AreaSums sums;
+  constexpr Index kChunk = detail::slice_centre::LogTable::kPoints;
+  for (const PlanarRegion::Ring& ring : region.rings())
+    for (Index chunk = 0; chunk < ring.segments; chunk += kChunk) {
+      const Index begin = ring.begin + chunk, count = std::min(kChunk, ring.segments - chunk);
+      table.fill(region, begin, count + 1, p);
+      for (Index i = 0; i < count; i += PlanarRegion::kBlock)
+        sums.add(table, i, region.tangent_x() + begin + i, region.tangent_y() + begin + i,
+                 region.length() + begin + i);
     }
-  }
+  FieldValue value;
+  value.potential = sums.potential.sum();
+  value.force = {sums.fx.sum(), sums.fy.sum()};
+  value.xx = sums.xx.sum();
+  value.xy = sums.xy.sum();
+  value.yy = sums.yy.sum();
   return value;
 }
 

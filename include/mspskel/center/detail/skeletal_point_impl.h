@@ -346,13 +346,13 @@ inline void validate(const SkeletalPointOptions& o) {
 
 inline SkeletalPoint find_skeletal_point(const PlanarRegion& region, const SkeletalPointOptions& options) {
   validate(options);
-  SkeletalPoint result;
-  result.position = region.contour_centroid();
-  if (options.method == SkeletalPointMethod::kCentre) {
-    if (!region.rings().empty()) result.stop = SkeletalPointStop::kConverged;
+  if (options.method == SkeletalPointMethod::kCentre || !region.valid()) {
+    SkeletalPoint result;
+    result.position = region.contour_centroid();
+    if (options.method == SkeletalPointMethod::kCentre && !region.rings().empty())
+      result.stop = SkeletalPointStop::kConverged;
     return result;
   }
-  if (!region.valid()) return result;
   switch (options.method) {
     case SkeletalPointMethod::kSampledForce:
       return detail::slice_centre::by_sampled_force(region, options);

@@ -6,31 +6,78 @@
 namespace mspskel {
 namespace detail::slice_centre {
 
+constexpr int kProbeRays = 8;
+
 struct VertexPoint {
   SkeletalPoint point;
   bool holed = false;
 };
 
-// The skeletal point of the slice, with its holes if they are asked for.
-inline VertexPoint point_of_slice(const SliceTracer& tracer, const SkeletonMeshOptions& options,
-                                  const BoundingVolumeHierarchy* solid, SliceRegion& slice) {
-  VertexPoint result;
-  flatten_slice(tracer.surface(), slice);
-  const auto find_with_holes = [&] {
-    result.holed = add_hole_contours(tracer, *solid, slice) > 0;
-    if (!result.holed) return;
-    SkeletalPointOptions holed = options.point;
-    holed.method = options.method_with_holes;
+// Asks the slices of a mesh for their skeletal points.
+class SlicePoints {
+ public:
+  SlicePoints(const SliceTracer& tracer, const VertexSlices& slices, const SkeletonMeshOptions& options)
+      : tracer_(tracer), slices_(slices), options_(options) {
+    if (options.holes == HoleSearch::kIgnore) return;
+    if (!options.solid) own_ = std::make_unique<BoundingVolumeHierarchy>(tracer.surface());
+    solid_ = options.solid ? options.solid : own_.get();
+  }
+
+  // v's slice and its region, without holes; false if there is no contour.
+  bool load(Index v, SliceRegion& slice) const {
+    slice.plane = {slices_.normal[v], slices_.normal[v].dot(tracer_.surface().position[v])};
+    slice.through = v;
+    if (!slice_contour(tracer_, slices_, v, slice.contour)) return false;
+    flatten_slice(tracer_.surface(), slice);
+    return true;
+  }
+
+  // The skeletal point, with the holes that are seen at the first glance.
+  VertexPoint find(SliceRegion& slice) const {
+    constexpr int kGlance = 2;  // rays
+    VertexPoint result;
+    if (options_.holes == HoleSearch::kAll && slice.region.valid() && find_with_holes(slice, result))
+      return result;
+    result.point = find_skeletal_point(slice.region, options_.point);
+    if (options_.holes == HoleSearch::kProbe) probe(slice, kGlance, result);
+    return result;
+  }
+
+  // Looks for holes from the point found without any, which gives way to another if there are some.
+  void probe(SliceRegion& slice, int rays, VertexPoint& result) const {
+    if (slice.region.valid() && may_have_holes(slice, *solid_, result.point.position, rays))
+      find_with_holes(slice, result);
+  }
+
+ private:
+  bool find_with_holes(SliceRegion& slice, VertexPoint& result) const {
+    result.holed = add_hole_contours(tracer_, *solid_, slice) > 0;
+    if (!result.holed) return false;
+    SkeletalPointOptions holed = options_.point;
+    holed.method = options_.method_with_holes;
     const Index before = result.point.iterations;
     result.point = find_skeletal_point(slice.region, holed);
     result.point.iterations += before;
-  };
-  if (options.holes == HoleSearch::kAll && slice.region.valid()) find_with_holes();
-  if (result.holed) return result;
-  result.point = find_skeletal_point(slice.region, options.point);
-  if (options.holes == HoleSearch::kProbe && slice.region.valid() &&
-      may_have_holes(slice, *solid, result.point.position))
-    find_with_holes();
+    return true;
+  }
+
+  const SliceTracer& tracer_;
+  const VertexSlices& slices_;
+  const SkeletonMeshOptions& options_;
+  std::unique_ptr<BoundingVolumeHierarchy> own_;
+  const BoundingVolumeHierarchy* solid_ = nullptr;
+};
+
+// Neighbours of `from` that have a slice and have not been asked; they count as asked after that.
+inline std::vector<Index> unasked_neighbours(const SurfaceSnapshot& surface, const std::vector<Index>& from,
+                                             std::vector<std::uint8_t>& asked) {
+  std::vector<Index> result;
+  for (const Index v : from)
+    for_each_neighbour(surface, v, [&](Index w) {
+      if (asked[w]) return;
+      asked[w] = 1;
+      result.push_back(w);
+    });
   return result;
 }
 
@@ -72,11 +119,7 @@ inline SkeletonMesh make_skeleton_mesh(const SliceTracer& tracer, const VertexSl
   mesh.error = slices.error;
   mesh.area = surface.vertex_area;
   mesh.valid = slices.valid;
-  std::unique_ptr<BoundingVolumeHierarchy> own;
-  if (options.holes != HoleSearch::kIgnore && !options.solid)
-    own = std::make_unique<BoundingVolumeHierarchy>(surface);
-  const BoundingVolumeHierarchy* solid = options.solid ? options.solid : own.get();
-
+  const detail::slice_centre::SlicePoints points(tracer, slices, options);
   std::vector<detail::slice_centre::VertexPoint> found(surface.position.size());
   parallel_for(
       surface.vertex_count(), "skeletal points", execution, [] { return SliceRegion(); },
@@ -87,15 +130,35 @@ inline SkeletonMesh make_skeleton_mesh(const SliceTracer& tracer, const VertexSl
           found[v].point.stop = SkeletalPointStop::kConverged;
           return;
         }
-        slice.plane = {slices.normal[v], slices.normal[v].dot(surface.position[v])};
-        slice.through = v;
-        if (!slice_contour(tracer, slices, v, slice.contour)) {
+        if (!points.load(v, slice)) {
           mesh.position[v] = slices.centre[v];
           return;
         }
-        found[v] = detail::slice_centre::point_of_slice(tracer, options, solid, slice);
+        found[v] = points.find(slice);
         mesh.position[v] = slice.frame.to_space(found[v].point.position);
       });
+  if (options.holes == HoleSearch::kProbe && options.point.method != SkeletalPointMethod::kCentre) {
+    std::vector<std::uint8_t> asked(surface.position.size(), 0);
+    std::vector<Index> holed;
+    for (Index v = 0; v < surface.vertex_count(); ++v) {
+      asked[v] = found[v].holed || !slices.valid[v];
+      if (found[v].holed) holed.push_back(v);
+    }
+    while (!holed.empty()) {
+      const std::vector<Index> next = detail::slice_centre::unasked_neighbours(surface, holed, asked);
+      parallel_for(
+          static_cast<Index>(next.size()), "skeletal points", execution, [] { return SliceRegion(); },
+          [&](Index i, SliceRegion& slice) {
+            const Index v = next[i];
+            if (!points.load(v, slice)) return;
+            points.probe(slice, detail::slice_centre::kProbeRays, found[v]);
+            mesh.position[v] = slice.frame.to_space(found[v].point.position);
+          });
+      holed.clear();
+      for (const Index v : next)
+        if (found[v].holed) holed.push_back(v);
+    }
+  }
   for (Index v = 0; v < surface.vertex_count(); ++v) {
     if (!slices.valid[v]) {
       ++mesh.without_slice;
