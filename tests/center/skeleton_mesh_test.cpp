@@ -119,6 +119,35 @@ TEST_CASE("a slice's region has the contour's perimeter and area and starts at i
   }
 }
 
+TEST_CASE("a contour that comes to its vertex twice gives the same region wherever its walk begins") {
+  const SurfaceSnapshot surface = make_snapshot(saddle(2, 25, 6));
+  const SliceTracer tracer(surface);
+  // The level through the saddle: two loops above it, joined there.
+  const Vector3 up = Vector3::UnitZ();
+  const Plane plane{up, up.dot(surface.position[0])};
+  const auto above = [&](Index v) { return v == 0 || up.dot(surface.position[v]) >= plane.offset; };
+  std::vector<SliceRegion> slices;
+  Index h = surface.vertex_halfedge[0];
+  do {
+    if (above(surface.target(h)) && !above(surface.apex(h))) {
+      SliceRegion slice;
+      slice.plane = plane;
+      slice.through = 0;
+      tracer.trace(surface.twin[SurfaceSnapshot::next(h)], plane, 0, slice.contour);
+      flatten_slice(surface, slice);
+      CHECK(slice.region.perimeter() == Approx(slice.contour.perimeter));
+      CHECK(slice.region.area() == Approx(slice.contour.area));
+      slices.push_back(slice);
+    }
+    h = surface.next_outgoing(h);
+  } while (h != surface.vertex_halfedge[0]);
+  REQUIRE(slices.size() == 2);
+  const PlanarRegion &a = slices[0].region, &b = slices[1].region;
+  REQUIRE(a.rings()[0].points == b.rings()[0].points);
+  for (Index i = 0; i < a.rings()[0].points; ++i)
+    CHECK((slices[0].frame.to_space(a.point(i)) - slices[1].frame.to_space(b.point(i))).norm() < 1e-12);
+}
+
 TEST_CASE("vertices without a slice take their neighbours' mean and no confidence") {
   Sliced s(tube(1, 8, 16, 16));
   const Index lost = 5 * 16 + 3;

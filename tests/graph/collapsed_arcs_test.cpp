@@ -81,6 +81,41 @@ TEST_CASE("Arcs of a collapsed graph have its type, and every vertex that it map
   }
 }
 
+TEST_CASE("Hubs and arcs have the same numbers however the nodes are turned and numbered") {
+  Random random(3);
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(2, Vector3(3, -1, 2).normalized()).toRotationMatrix();
+  for (int run = 0; run < 200; ++run) {
+    CollapsedSkeleton collapsed = random_collapsed(random);
+    for (CollapsedNode& node : collapsed.nodes) node.area = random.uniform(0.1, 1);
+    const auto count = static_cast<Index>(collapsed.nodes.size());
+    const std::vector<Index> place = permutation(count, random);
+    CollapsedSkeleton copy = collapsed;
+    for (Index i = 0; i < count; ++i) {
+      copy.nodes[place[i]] = collapsed.nodes[i];
+      copy.nodes[place[i]].position = turn * collapsed.nodes[i].position;
+    }
+    for (CollapsedEdge& e : copy.edges) {
+      const Index a = place[e.first], b = place[e.second];
+      e.first = std::min(a, b);
+      e.second = std::max(a, b);
+    }
+    std::sort(copy.edges.begin(), copy.edges.end(), [](const auto& x, const auto& y) {
+      return std::make_pair(x.first, x.second) < std::make_pair(y.first, y.second);
+    });
+    const ArcGraph expected = make_arc_graph(collapsed), graph = make_arc_graph(copy);
+    REQUIRE(graph.hub_count() == expected.hub_count());
+    REQUIRE(graph.arc_count() == expected.arc_count());
+    for (Index h = 0; h < graph.hub_count(); ++h)
+      REQUIRE((graph.hub_position[h] - turn * expected.hub_position[h]).norm() < 1e-12);
+    for (Index a = 0; a < graph.arc_count(); ++a) {
+      const auto &points = graph.arcs[a].points, &expected_points = expected.arcs[a].points;
+      REQUIRE(points.size() == expected_points.size());
+      for (std::size_t i = 0; i < points.size(); ++i)
+        REQUIRE((points[i] - turn * expected_points[i]).norm() < 1e-12);
+    }
+  }
+}
+
 TEST_CASE("The finished skeleton is a simple graph of the same type; map, areas and radii are exact") {
   const DefaultMesh mesh = sphere(80);
   const SurfaceSnapshot surface = make_snapshot(scaled(translated(mesh, {4, 5, 6}), 3));

@@ -51,9 +51,11 @@ struct CollapsedSkeleton {
 };
 
 // The loop of Fig. 4.5, one operation at a time. Costs and constraints are computed when an edge is popped;
-// an edge whose cost has grown since it was pushed goes back. Ties go by length, then by the edge's index, so
-// equal input gives equal bytes. It always ends: every operation removes a vertex, an edge or a face for
-// good, and between two operations each edge is popped a bounded number of times.
+// an edge whose cost has grown since it was pushed goes back. Costs that differ by rounding only are equal,
+// or regular and symmetric surfaces would collapse in another order once they are turned; ties go by length,
+// then by the edge's index, so equal input gives equal bytes. It always ends: every operation removes a
+// vertex, an edge or a face for good, and between two operations each edge is popped a bounded number of
+// times.
 class SkeletonDecimater {
  public:
   // `sets` per vertex of the complex, each of one vertex. With keep_topology off the labels of the complex
@@ -74,7 +76,7 @@ class SkeletonDecimater {
   // The living vertex whose merging set holds v.
   Index node_of(Index v) const;
   // M(e) as things stand, by the options' order. For tests and pictures.
-  double cost(Index e) { return key(e).cost; }
+  double cost(Index e);
   CostTerms cost_terms(Index e);
   CollapsedSkeleton result() const;
 
@@ -82,7 +84,7 @@ class SkeletonDecimater {
   // Where a living edge is when it is not in the queue.
   enum class State : unsigned char { kQueued, kRefused, kParked, kListed };
   struct Key {
-    double cost, length;
+    float cost, length;  // rounded, so that what is equal up to a double's rounding ties
     Index edge;
     std::uint32_t revision;  // of both ends, when the cost was computed
     bool operator<(const Key& other) const {
@@ -101,6 +103,7 @@ class SkeletonDecimater {
   void refresh(Index node);
   const Vector3& axis(Index node);
   double length(Index e) const;
+  float rounded_length(Index e) const;
   std::uint32_t revision(Index e) const;
   Key key(Index e);
   void push(const Key& key);
@@ -108,7 +111,7 @@ class SkeletonDecimater {
   bool process(Index e);
   bool is_noise(Index e) const;
   bool has_settled_neighbours(Index e) const;
-  bool moves_less(Index u, Index v) const;
+  bool outranks(Index u, Index v) const;
   bool try_collapse(Index e, bool allow_parallel);
   void reopen_noise(Index node);
   void reopen_refused(Index node);

@@ -9,8 +9,8 @@
 
 namespace mspskel {
 
-// Hubs are the nodes that do not have exactly two edge ends, and one node of every closed chain. Cost:
-// O(size).
+// Hubs are the nodes that do not have exactly two edge ends, and one node of every closed chain. Hubs and
+// arcs are numbered by place in a frame that turns with the nodes. Cost: O(size · log size).
 ArcGraph make_arc_graph(const CollapsedSkeleton& collapsed);
 
 // The finished skeleton: hubs and arc points become nodes with radii, loops and parallel arcs get nodes of

@@ -8,20 +8,49 @@
 
 namespace mspskel {
 
+namespace detail::slice_centre {
+
+// At a saddle a contour may come to its vertex twice, and rounding decides on which loop the walk began: the
+// visit that the longest way follows.
+inline Index first_visit(const Contour& contour, const std::vector<Index>& visits) {
+  const std::size_t count = contour.point.size();
+  Index best = visits.front();
+  double longest = -1;
+  for (std::size_t k = 0; k < visits.size() && visits.size() > 1; ++k) {
+    const auto next = static_cast<std::size_t>(visits[(k + 1) % visits.size()]);
+    double length = 0;
+    for (auto i = static_cast<std::size_t>(visits[k]); i != next; i = (i + 1) % count)
+      length += (contour.point[(i + 1) % count] - contour.point[i]).norm();
+    if (length > longest) longest = length, best = visits[k];
+  }
+  return best;
+}
+
+}  // namespace detail::slice_centre
+
 inline void flatten_slice(const SurfaceSnapshot& surface, SliceRegion& slice) {
   const Contour& contour = slice.contour;
   const auto count = static_cast<Index>(contour.point.size());
   const auto at_vertex = [&](Index i) {
-    return slice.through != kNone && surface.target(contour.halfedge[(i + count) % count]) == slice.through;
+    return slice.through != kNone && surface.target(contour.halfedge[i]) == slice.through;
   };
   // Every edge from the vertex's other side is crossed in the vertex itself: one point of the polygon.
-  Index first = 0;
-  while (first < count && !(at_vertex(first) && !at_vertex(first - 1))) ++first;
-  first %= std::max<Index>(count, 1);
+  std::vector<Index> visits;
+  std::vector<std::uint8_t> repeated(contour.point.size(), 0);
+  bool before = count > 0 && at_vertex(count - 1);
+  for (Index i = 0; i < count; ++i) {
+    const bool here = at_vertex(i);
+    repeated[i] = here && before;
+    if (here && !before) visits.push_back(i);
+    before = here;
+  }
+  const Index first = visits.empty() ? 0 : detail::slice_centre::first_visit(contour, visits);
   std::vector<Vector3> points;
   points.reserve(contour.point.size());
-  for (Index k = 0; k < count; ++k)
-    if (k == 0 || !at_vertex(first + k)) points.push_back(contour.point[(first + k) % count]);
+  for (Index k = 0; k < count; ++k) {
+    const Index i = first + k < count ? first + k : first + k - count;
+    if (k == 0 || !repeated[i]) points.push_back(contour.point[i]);
+  }
   if (points.empty()) {
     slice.region = PlanarRegion();
     return;

@@ -1,11 +1,12 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <numeric>
 #include <string>
-#include <tuple>
 #include <utility>
 
 namespace mspskel {
@@ -75,16 +76,23 @@ inline CostTerms SkeletonDecimater::cost_terms(Index e) {
   return terms;
 }
 
-inline SkeletonDecimater::Key SkeletonDecimater::key(Index e) {
-  const double size = length(e);
-  double cost = size;
+inline double SkeletonDecimater::cost(Index e) {
   if (options_.cost) {
-    cost = options_.cost(cost_terms(e));
-    if (std::isnan(cost)) cost = std::numeric_limits<double>::infinity();
-  } else if (options_.order == CollapseOrder::kCost) {
-    cost = total_cost(cost_terms(e), options_.lambda, options_.angle_floor);
+    const double cost = options_.cost(cost_terms(e));
+    return std::isnan(cost) ? std::numeric_limits<double>::infinity() : cost;
   }
-  return {cost, size, e, revision(e)};
+  if (options_.order == CollapseOrder::kShortestFirst) return length(e);
+  return total_cost(cost_terms(e), options_.lambda, options_.angle_floor);
+}
+
+inline float SkeletonDecimater::rounded_length(Index e) const {
+  constexpr double kNothing = 1e-10;  // far below any length that matters, in the normalised frame
+  return static_cast<float>(length(e) + kNothing);
+}
+
+inline SkeletonDecimater::Key SkeletonDecimater::key(Index e) {
+  constexpr double kNothing = 1e-20;  // where points coincide, rounding is all
+  return {static_cast<float>(cost(e) + kNothing), rounded_length(e), e, revision(e)};
 }
 
 // ---- the queue
@@ -159,18 +167,26 @@ inline bool SkeletonDecimater::process(Index e) {
 }
 
 // The end with fewer edges moves, since its edges are relinked one by one. Merged edges keep the kept end's
-// place in the queue, so the choice matters and has to be one of geometry, not of numbering.
-inline bool SkeletonDecimater::moves_less(Index u, Index v) const {
+// place in the queue, so the choice matters and has to be one of geometry, not of numbering or rounding.
+inline bool SkeletonDecimater::outranks(Index u, Index v) const {
+  const Index more = complex_.degree(u) - complex_.degree(v);
+  if (more != 0) return more > 0;
+  // Errors and distances may vanish but for rounding, so they are seen beside 1.
   const auto rank = [&](Index node) {
     const MergingSet& set = sets_[node];
-    return std::make_tuple(complex_.degree(node), set.area(), set.perimeter(), set.error_sum());
+    return std::array<double, 4>{set.area(), set.perimeter(), 1 + set.error_sum(),
+                                 1 + nodes_[node].position.norm()};
   };
-  return rank(u) >= rank(v);
+  const std::array<double, 4> a = rank(u), b = rank(v);
+  constexpr double kRounding = 1e-9;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (std::abs(a[i] - b[i]) > kRounding * std::max(a[i], b[i])) return a[i] > b[i];
+  return true;
 }
 
 inline bool SkeletonDecimater::try_collapse(Index e, bool allow_parallel) {
   const auto [first, second] = complex_.ends(e);
-  const bool keep_first = moves_less(first, second);
+  const bool keep_first = outranks(first, second);
   const Index kept = keep_first ? first : second, gone = keep_first ? second : first;
   const bool flat = complex_.face_count(e) == 0;
   const CollapseRefusal refusal = complex_.collapse(e, kept, allow_parallel);
@@ -246,7 +262,8 @@ inline bool SkeletonDecimater::collapse_to_parallel_edges() {
 inline bool SkeletonDecimater::thin_sheet() {
   Index longest = kNone;
   for (const Index e : living_)
-    if (complex_.face_count(e) == 1 && (longest == kNone || length(e) > length(longest))) longest = e;
+    if (complex_.face_count(e) == 1 && (longest == kNone || rounded_length(e) > rounded_length(longest)))
+      longest = e;
   if (longest == kNone) return false;
   const auto ends = complex_.ends(longest);
   complex_.delete_face(complex_.first_corner(longest) / 3);
@@ -279,7 +296,7 @@ inline void SkeletonDecimater::delete_largest_face() {
 // longest edges first. Loops without any label go too.
 inline bool SkeletonDecimater::cut_surplus_loops() {
   const std::vector<Index> surplus = surplus_edges(complex_, [&](Index a, Index b) {
-    return std::make_pair(length(a), a) < std::make_pair(length(b), b);
+    return std::make_pair(rounded_length(a), a) < std::make_pair(rounded_length(b), b);
   });
   for (const Index e : surplus) {
     const auto ends = complex_.ends(e);

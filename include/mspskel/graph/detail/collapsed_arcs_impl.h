@@ -3,14 +3,25 @@
 #include <algorithm>
 #include <limits>
 
+#include "mspskel/mesh/detail/moment_frame.h"
+
 namespace mspskel {
 namespace detail {
 
-// Walks the chains of a multigraph and writes them as arcs; remembers which arc each inner node is on.
+// The nodes in an order that does not depend on how the surface lies or is stored.
+inline std::vector<Index> order_by_place(const std::vector<CollapsedNode>& nodes) {
+  std::vector<Vector3> points;
+  for (const CollapsedNode& node : nodes) points.push_back(node.position);
+  return spatial_order(points, moment_frame(points, [&](std::size_t i) { return nodes[i].area; }));
+}
+
+// Walks the chains of a multigraph and writes them as arcs; remembers which arc each inner node is on. Later
+// stages take hubs and arcs by their numbers where nothing else tells them apart, so these follow the place.
 class ArcTracer {
  public:
   explicit ArcTracer(const CollapsedSkeleton& collapsed)
       : collapsed_(collapsed),
+        order_(order_by_place(collapsed.nodes)),
         at_(collapsed.nodes.size()),
         hub_(collapsed.nodes.size(), kNone),
         arc_(collapsed.nodes.size(), kNone),
@@ -19,15 +30,19 @@ class ArcTracer {
       at_[collapsed.edges[e].first].push_back(e);
       at_[collapsed.edges[e].second].push_back(e);
     }
+    std::vector<Index> rank(order_.size());
+    for (std::size_t k = 0; k < order_.size(); ++k) rank[order_[k]] = static_cast<Index>(k);
+    for (Index i = 0; i < static_cast<Index>(at_.size()); ++i)
+      std::stable_sort(at_[i].begin(), at_[i].end(),
+                       [&](Index a, Index b) { return rank[other_end(a, i)] < rank[other_end(b, i)]; });
   }
 
   ArcGraph trace() {
-    const Index n = static_cast<Index>(collapsed_.nodes.size());
-    for (Index i = 0; i < n; ++i)
+    for (const Index i : order_)
       if (at_[i].size() != 2) hub_[i] = graph_.add_hub(collapsed_.nodes[i].position);
-    for (Index i = 0; i < n; ++i)
+    for (const Index i : order_)
       if (hub_[i] != kNone) walk_from(i);
-    for (Index i = 0; i < n; ++i)
+    for (const Index i : order_)
       if (hub_[i] == kNone && arc_[i] == kNone) {
         hub_[i] = graph_.add_hub(collapsed_.nodes[i].position);
         walk_from(i);
@@ -69,6 +84,7 @@ class ArcTracer {
   }
 
   const CollapsedSkeleton& collapsed_;
+  const std::vector<Index> order_;
   std::vector<std::vector<Index>> at_;
   std::vector<Index> hub_, arc_;
   std::vector<bool> used_;

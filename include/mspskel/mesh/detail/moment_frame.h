@@ -13,14 +13,15 @@
 namespace mspskel {
 namespace detail {
 
-// Rows are orthonormal and right-handed: the directions of the third moment and of what the fifth moment has
-// beside it (the first is zero in the normalised frame). For a surface that a rotation maps onto itself
-// rounding decides.
-inline Eigen::Matrix3d moment_frame(const SurfaceSnapshot& s) {
+// Rows are orthonormal and right-handed: the directions of the third moment of weighted points and of what
+// the fifth moment has beside it. For points that a rotation about the origin maps onto themselves rounding
+// decides.
+template <class Weight>
+Eigen::Matrix3d moment_frame(const std::vector<Vector3>& points, const Weight& weight_of) {
   Vector3 third = Vector3::Zero(), fifth = Vector3::Zero();
-  for (Index v = 0; v < s.vertex_count(); ++v) {
-    const Vector3& p = s.position[v];
-    const double square = p.squaredNorm(), weight = s.vertex_area[v] * square;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vector3& p = points[i];
+    const double square = p.squaredNorm(), weight = weight_of(i) * square;
     third += weight * p;
     fifth += weight * square * p;
   }
@@ -33,6 +34,11 @@ inline Eigen::Matrix3d moment_frame(const SurfaceSnapshot& s) {
   Eigen::Matrix3d frame;
   frame << x.transpose(), y.transpose(), x.cross(y).transpose();
   return frame;
+}
+
+// The first moment is zero in the normalised frame.
+inline Eigen::Matrix3d moment_frame(const SurfaceSnapshot& s) {
+  return moment_frame(s.position, [&](std::size_t v) { return s.vertex_area[v]; });
 }
 
 // Regular and symmetric surfaces have many equal costs, which would be taken in the order of storage or, once
@@ -75,7 +81,9 @@ inline std::vector<Index> spatial_order(const std::vector<Vector3>& points, cons
   std::vector<std::pair<std::uint64_t, Index>> keyed;
   keyed.reserve(points.size());
   for (const Vector3& p : points) {
-    const Vector3 q = ((frame * p).array() + 2) * 0x1p19;
+    // Half a cell's shift: the planes through the origin, where symmetric surfaces have points, bound no
+    // cells.
+    const Vector3 q = ((frame * p).array() + 2) * 0x1p19 + 0.5;
     const auto cell = [&](int k) {
       return spread(static_cast<std::uint64_t>(std::min(std::max(q[k], 0.0), 0x1p21 - 1)));
     };
