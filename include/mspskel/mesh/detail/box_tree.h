@@ -7,6 +7,9 @@
 #include <cmath>
 #include <limits>
 #include <vector>
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
 
 #include "mspskel/base/types.h"
 
@@ -15,13 +18,24 @@ namespace detail {
 
 using Float3 = std::array<float, 3>;
 
-// Four numbers at once. Stored as plain arrays, so that no public type has an alignment that depends on
-// compiler flags.
-using Lanes = Eigen::Array<float, 4, 1>;
-inline Lanes load(const float* four) { return Eigen::Map<const Lanes, Eigen::Aligned16>(four); }
-inline void store(const Lanes& lanes, float* four) {
-  Eigen::Map<Lanes, Eigen::Aligned16> out(four);
-  out = lanes;
+// Four numbers at once, for local use: stored as plain arrays, so that no public type has an alignment that
+// depends on compiler flags.
+using Lanes = float __attribute__((vector_size(16), may_alias));
+inline Lanes load(const float* four) { return *reinterpret_cast<const Lanes*>(four); }
+inline void store(const Lanes& lanes, float* four) { *reinterpret_cast<Lanes*>(four) = lanes; }
+inline Lanes all(float x) { return Lanes{x, x, x, x}; }
+inline Lanes smaller(const Lanes& a, const Lanes& b) { return a < b ? a : b; }
+inline Lanes larger(const Lanes& a, const Lanes& b) { return a > b ? a : b; }
+
+// Bit k is set where lane k of a is at most that of b.
+inline unsigned at_most(const Lanes& a, const Lanes& b) {
+#ifdef __SSE2__
+  return static_cast<unsigned>(_mm_movemask_ps(_mm_cmple_ps(a, b)));
+#else
+  unsigned mask = 0;
+  for (int k = 0; k < 4; ++k) mask |= static_cast<unsigned>(a[k] <= b[k]) << k;
+  return mask;
+#endif
 }
 
 // Both corners are read as four numbers, the last of which means nothing.
@@ -70,12 +84,12 @@ class BoxTree {
 };
 
 struct Bounds {
-  Lanes low = Lanes::Constant(std::numeric_limits<float>::max());
-  Lanes high = Lanes::Constant(std::numeric_limits<float>::lowest());
+  Lanes low = all(std::numeric_limits<float>::max());
+  Lanes high = all(std::numeric_limits<float>::lowest());
 
   void add(const Lanes& lo, const Lanes& hi) {
-    low = low.min(lo);
-    high = high.max(hi);
+    low = smaller(low, lo);
+    high = larger(high, hi);
   }
   float half_area() const {
     const Lanes size = high - low;
@@ -224,11 +238,13 @@ class BoxStack {
   };
   bool empty() const { return size_ == 0; }
   Entry pop() { return entry_[--size_]; }
-  // Pushes the lanes with keep[k], farthest first.
-  void push(const BoxNode& node, const float* key, const bool* keep) {
+  // Pushes the lanes whose bit is set, farthest first.
+  void push(const BoxNode& node, const Lanes& keys, unsigned lanes) {
+    alignas(16) float key[4];
+    store(keys, key);
     const int bottom = size_;
-    for (int k = 0; k < 4; ++k) {
-      if (!keep[k]) continue;
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const int k = __builtin_ctz(lanes);
       int slot = size_++;
       for (; slot > bottom && entry_[slot - 1].key < key[k]; --slot) entry_[slot] = entry_[slot - 1];
       entry_[slot] = {key[k], node.child[k], node.count[k]};
@@ -245,29 +261,26 @@ class BoxStack {
 template <class Leaf>
 void BoxTree::by_distance(const Vector3& p, const double& bound, Leaf leaf) const {
   const float q[3] = {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])};
-  // Rounding in single precision may not make a box look farther than it is.
-  constexpr float kShrink = 1.0f - 4e-6f;
+  // Rounding in single precision may not make a box look farther than it is; lanes without a child always do.
+  const auto limit_of = [](double square) { return static_cast<float>(std::min(square * (1 + 4e-6), 1e38)); };
+  float limit = limit_of(bound);
   BoxStack stack;
   stack.push_root();
   while (!stack.empty()) {
     const BoxStack::Entry top = stack.pop();
-    if (static_cast<double>(top.key) > bound) continue;
+    if (top.key > limit) continue;
     if (top.count > 0) {
       leaf(top.child, top.count);
+      limit = limit_of(bound);
       continue;
     }
     const BoxNode& node = nodes_[top.child];
-    Lanes square = Lanes::Zero();
+    Lanes square = {};
     for (int a = 0; a < 3; ++a) {
-      const Lanes outside = (load(node.low[a]) - q[a]).max(q[a] - load(node.high[a])).max(0.0f);
+      const Lanes outside = larger(larger(load(node.low[a]) - q[a], q[a] - load(node.high[a])), Lanes{});
       square += outside * outside;
     }
-    alignas(16) float key[4];
-    store(square * kShrink, key);
-    bool keep[4];
-    for (int k = 0; k < 4; ++k)
-      keep[k] = static_cast<double>(key[k]) <= bound && key[k] < std::numeric_limits<float>::max();
-    stack.push(node, key, keep);
+    stack.push(node, square, at_most(square, all(limit)));
   }
 }
 
@@ -288,28 +301,27 @@ void BoxTree::along_ray(const Vector3& origin, const Vector3& direction, const d
     const double d = direction[a];
     inverse[a] = static_cast<float>(std::abs(d) > 1e-30 ? 1.0 / d : std::copysign(1e30, d));
   }
+  const auto limit_of = [&](double distance) {
+    return static_cast<float>(std::min(distance - slid, 1e30)) * (1.0f + 1e-6f);
+  };
+  float limit = limit_of(bound);
   BoxStack stack;
   stack.push_root();
   while (!stack.empty()) {
     const BoxStack::Entry top = stack.pop();
-    const float limit = static_cast<float>(std::min(bound - slid, 1e30)) * (1.0f + 1e-6f);
     if (top.key > limit) continue;
     if (top.count > 0) {
       if (!leaf(top.child, top.count)) return;
+      limit = limit_of(bound);
       continue;
     }
     const BoxNode& node = nodes_[top.child];
-    Lanes in = Lanes::Zero(), out = Lanes::Constant(limit);
+    Lanes in = {}, out = all(limit);
     for (int a = 0; a < 3; ++a) {
-      in = in.max((load(inverse[a] < 0 ? node.high[a] : node.low[a]) - o[a]) * inverse[a]);
-      out = out.min((load(inverse[a] < 0 ? node.low[a] : node.high[a]) - o[a]) * inverse[a]);
+      in = larger(in, (load(inverse[a] < 0 ? node.high[a] : node.low[a]) - o[a]) * inverse[a]);
+      out = smaller(out, (load(inverse[a] < 0 ? node.low[a] : node.high[a]) - o[a]) * inverse[a]);
     }
-    alignas(16) float enter[4], leave[4];
-    store(in, enter);
-    store(out * (1.0f + 1e-6f), leave);
-    bool keep[4];
-    for (int k = 0; k < 4; ++k) keep[k] = enter[k] <= leave[k];
-    stack.push(node, enter, keep);
+    stack.push(node, in, at_most(in, out * (1.0f + 1e-6f)));
   }
 }
 
@@ -329,11 +341,10 @@ void BoxTree::in_box(const Vector3& low, const Vector3& high, Leaf leaf) const {
       continue;
     }
     const BoxNode& node = nodes_[top.child];
-    bool keep[4] = {true, true, true, true};
+    unsigned meets = 15;
     for (int a = 0; a < 3; ++a)
-      for (int k = 0; k < 4; ++k) keep[k] = keep[k] & (node.low[a][k] <= hi[a]) & (node.high[a][k] >= lo[a]);
-    const float key[4] = {0, 0, 0, 0};
-    stack.push(node, key, keep);
+      meets &= at_most(load(node.low[a]), all(hi[a])) & at_most(all(lo[a]), load(node.high[a]));
+    stack.push(node, Lanes{}, meets);
   }
 }
 

@@ -42,44 +42,45 @@ class TriangleBlock {
   // Squared distances from p, right up to distance_error before squaring. Over the triangle's inside the
   // distance to its plane, elsewhere (and where the plane of a sliver is unsure) the nearest edge's.
   void squared_distances(const FilterPoint& point, float* square) const {
-    const Lanes3 b = load3(ab_), c = load3(ac_), p = minus(point, a_),
-                 e{c[0] - b[0], c[1] - b[1], c[2] - b[2]}, q{p[0] - b[0], p[1] - b[1], p[2] - b[2]},
+    const Lanes3 b = load3(ab_), c = load3(ac_), p = minus(point, a_), e = minus(c, b), q = minus(p, b),
                  n = cross(b, c);
-    const Lanes edges = to_edge(p, b).min(to_edge(p, c)).min(to_edge(q, e)), height = dot(n, p);
-    const Lanes plane = height * height / dot(n, n).max(kTiny);
-    const Lanes least = dot(n, cross(b, p)).min(dot(n, cross(p, c))).min(dot(n, cross(e, q)));
+    const Lanes edges = smaller(smaller(to_edge(p, b), to_edge(p, c)), to_edge(q, e)), height = dot(n, p);
+    const Lanes plane = height * height / larger(dot(n, n), all(kTiny));
+    const Lanes least = smaller(smaller(dot(n, cross(b, p)), dot(n, cross(p, c))), dot(n, cross(e, q)));
     // Beside the triangle the distance to its plane says nothing: make it huge.
-    store(edges.min(plane + (-least).max(0.0f) * kHuge), square);
+    store(smaller(edges, plane + larger(-least, Lanes{}) * kHuge), square);
   }
 
   // Negative for triangles that the line through the origin along d (length 1) cannot meet.
   void may_meet(const FilterPoint& origin, const float* d, float* may) const {
-    const Lanes3 ab = load3(ab_), ac = load3(ac_), p = minus(origin, a_),
-                 b{ab[0] - p[0], ab[1] - p[1], ab[2] - p[2]}, c{ac[0] - p[0], ac[1] - p[1], ac[2] - p[2]};
+    const Lanes3 p = minus(origin, a_), b = minus(load3(ab_), p), c = minus(load3(ac_), p);
     // p is the negative of corner a as seen from the origin.
     const Lanes u = along(d, cross(b, c)), v = along(d, cross(p, c)), w = along(d, cross(b, p));
     const Lanes slack = 1e-6f * origin.magnitude * (size(p) + size(b) + size(c));
-    store((u.min(v).min(w) + slack).max(slack - u.max(v).max(w)), may);
+    store(larger(smaller(smaller(u, v), w) + slack, slack - larger(larger(u, v), w)), may);
   }
 
  private:
-  using Lanes3 = std::array<Lanes, 3>;
+  struct Lanes3 {
+    Lanes x, y, z;
+  };
   static constexpr float kTiny = 1e-37f, kHuge = 1e30f;
 
   static Lanes3 load3(const float (&x)[3][4]) { return {load(x[0]), load(x[1]), load(x[2])}; }
   static Lanes3 minus(const FilterPoint& p, const float (&a)[3][4]) {
     return {p.x[0] - load(a[0]), p.x[1] - load(a[1]), p.x[2] - load(a[2])};
   }
-  static Lanes dot(const Lanes3& a, const Lanes3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-  static Lanes along(const float* d, const Lanes3& a) { return d[0] * a[0] + d[1] * a[1] + d[2] * a[2]; }
-  static Lanes size(const Lanes3& a) { return a[0].abs() + a[1].abs() + a[2].abs(); }
+  static Lanes3 minus(const Lanes3& a, const Lanes3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  static Lanes dot(const Lanes3& a, const Lanes3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+  static Lanes along(const float* d, const Lanes3& a) { return d[0] * a.x + d[1] * a.y + d[2] * a.z; }
+  static Lanes size(const Lanes3& a) { return larger(a.x, -a.x) + larger(a.y, -a.y) + larger(a.z, -a.z); }
   static Lanes3 cross(const Lanes3& a, const Lanes3& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
   }
   // Squared distance from p to the segment from 0 to e.
   static Lanes to_edge(const Lanes3& p, const Lanes3& e) {
-    const Lanes t = (dot(p, e) / dot(e, e).max(kTiny)).max(0.0f).min(1.0f);
-    const Lanes3 d{p[0] - t * e[0], p[1] - t * e[1], p[2] - t * e[2]};
+    const Lanes t = smaller(larger(dot(p, e) / larger(dot(e, e), all(kTiny)), Lanes{}), all(1.0f));
+    const Lanes3 d{p.x - t * e.x, p.y - t * e.y, p.z - t * e.z};
     return dot(d, d);
   }
 
