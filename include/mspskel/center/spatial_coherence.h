@@ -50,7 +50,7 @@ inline void apply_spatial_coherence(const SurfaceSnapshot& surface, const Cohere
   if (!options.enabled || options.strength == 0) return;
   const Index n = surface.vertex_count();
   std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(static_cast<std::size_t>(surface.halfedge_count()) + static_cast<std::size_t>(n));
+  entries.reserve(static_cast<std::size_t>(surface.halfedge_count()) / 2 + static_cast<std::size_t>(n));
   std::vector<double> valence(n, 0.0);
   for (Index h = 0; h < surface.halfedge_count(); ++h) ++valence[surface.origin[h]];
   std::vector<double> diagonal(n, 0.0);
@@ -59,7 +59,7 @@ inline void apply_spatial_coherence(const SurfaceSnapshot& surface, const Cohere
     const Index a = surface.origin[h], b = surface.target(h);
     const double w = options.strength * 0.5 * (1 / valence[a] + 1 / valence[b]);
     diagonal[a] += w;
-    entries.emplace_back(a, b, -w);
+    if (a > b) entries.emplace_back(a, b, -w);  // the factorisation reads the lower triangle only
   }
   Eigen::MatrixX3d right(n, 3);
   for (Index v = 0; v < n; ++v) {

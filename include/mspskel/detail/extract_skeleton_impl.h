@@ -42,15 +42,24 @@ inline void run_slice_stages(const SliceTracer& tracer, const ExtractOptions& op
   clock.lap("slice_error");
 }
 
+// For work of one thread that others need not wait for: beside them where there is a second thread, else when
+// its result is asked for.
+inline std::launch beside(const Execution& execution) {
+  return thread_count(execution) > 1 ? std::launch::async : std::launch::deferred;
+}
+
 // From slices to the collapsed graph, all on one surface.
 inline void run_surface_stages(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
                                const ExtractOptions& options, ExtractResult& result, StageClock& clock) {
-  const SliceTracer tracer(surface);
-  run_slice_stages(tracer, options, result, clock);
   SkeletonMeshOptions points = options.points;
   // Holes of a slice are contours of the surface that was sliced.
   std::optional<BoundingVolumeHierarchy> own;
-  if (result.coarse && points.holes != HoleSearch::kIgnore) own.emplace(surface);
+  std::future<void> building;
+  if (result.coarse && points.holes != HoleSearch::kIgnore)
+    building = std::async(beside(options.execution), [&] { own.emplace(surface); });
+  const SliceTracer tracer(surface);
+  run_slice_stages(tracer, options, result, clock);
+  if (building.valid()) building.get();
   points.solid = own ? &*own : &solid;
   result.skeleton_mesh = make_skeleton_mesh(tracer, result.slices, points, options.execution);
   clock.lap("skeletal_points");
@@ -146,9 +155,8 @@ inline ExtractResult extract_skeleton_of_snapshot(SurfaceSnapshot surface, const
   ExtractResult result;
   detail::StageClock clock(result.seconds);
   result.surface = std::move(surface);
-  // Beside the coarsening where there is a second thread.
-  const auto policy = thread_count(options.execution) > 1 ? std::launch::async : std::launch::deferred;
-  auto hierarchy = std::async(policy, [&] { return BoundingVolumeHierarchy(result.surface); });
+  auto hierarchy =
+      std::async(detail::beside(options.execution), [&] { return BoundingVolumeHierarchy(result.surface); });
   // Each shell bounds a solid of its own, the ones round cavities too.
   const std::optional<SurfaceSnapshot> oriented = orient_shells_outward(result.surface);
   const SurfaceSnapshot& shells = oriented ? *oriented : result.surface;

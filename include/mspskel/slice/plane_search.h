@@ -49,6 +49,7 @@ inline VertexSlices search_minimum_slice_perimeters(const SliceTracer& tracer, c
   validate(options);
   const SurfaceSnapshot& surface = tracer.surface();
   const Index count = surface.vertex_count();
+  const std::vector<detail::SpreadPlane> spread = detail::spread_planes(options);
   detail::SearchState state(surface);
   std::vector<detail::RoundResult> found;
   for (int round = 0, settling = 0; !state.active.empty(); ++round) {
@@ -58,7 +59,7 @@ inline VertexSlices search_minimum_slice_perimeters(const SliceTracer& tracer, c
     parallel_for(
         active, "slice search", execution, [] { return std::vector<detail::PlaneOffer>(); },
         [&](Index i, std::vector<detail::PlaneOffer>& offers) {
-          found[i] = detail::search_round(tracer, options, state, round, state.active[i], offers);
+          found[i] = detail::search_round(tracer, options, spread, state, round, state.active[i], offers);
         });
     state.advance(surface, found, round);
   }

@@ -30,6 +30,23 @@ inline bool is_seed(const SurfaceSnapshot& surface, Index v) {
   return seed;
 }
 
+// Planes in every vertex's own frame, spread evenly over the band of the sphere that the tilt allows.
+struct SpreadPlane {
+  double cosine, sine;   // of the angle round the vertex normal
+  double across, along;  // components of the plane's normal across and along the vertex normal
+};
+
+inline std::vector<SpreadPlane> spread_planes(const SearchOptions& options) {
+  constexpr double kGolden = 0.6180339887498949;
+  const double max_sine = std::sin(options.max_tilt * kPi / 180);
+  std::vector<SpreadPlane> planes;
+  for (int i = 0; i < options.spread; ++i) {
+    const double sine = max_sine * (i + 0.5) / options.spread, angle = 2 * kPi * kGolden * (i + 0.5);
+    planes.push_back({std::cos(angle), std::sin(angle), std::sqrt(1 - sine * sine), sine});
+  }
+  return planes;
+}
+
 // What the vertices know after a round. best[v] holds v's slice and the work so far.
 struct SearchState {
   std::vector<BestSlice> best;
@@ -127,16 +144,12 @@ class PlaneSearch {
       try_plane(plane_normal(frame.u, frame.v, kPi * i / options_.angles));
   }
 
-  // Normals spread evenly over the band of the sphere that the tilt allows. The zero direction differs from
-  // vertex to vertex, so together neighbours look at many more planes than one of them.
-  void try_spread() {
-    constexpr double kGolden = 0.6180339887498949;
+  // The zero direction differs from vertex to vertex, so together neighbours look at many more planes than
+  // one of them.
+  void try_spread(const std::vector<SpreadPlane>& planes) {
     const VertexFrame frame = make_vertex_frame(tracer_.surface(), v_);
-    for (int i = 0; i < options_.spread; ++i) {
-      const double sine = max_sine_ * (i + 0.5) / options_.spread;
-      const Vector3 m =
-          std::sqrt(1 - sine * sine) * plane_normal(frame.u, frame.v, 2 * kPi * kGolden * (i + 0.5)) +
-          sine * axis_;
+    for (const SpreadPlane& plane : planes) {
+      const Vector3 m = plane.across * (plane.cosine * frame.u + plane.sine * frame.v) + plane.along * axis_;
       if (!knows(m)) try_plane(m);
     }
   }
@@ -150,12 +163,13 @@ class PlaneSearch {
       const Vector3 m = best_.normal;
       const Vector3 turn = axis_.cross(m).normalized(), tilt = m.cross(turn).normalized();
       const Vector3 moves[4] = {turn, -turn, tilt, -tilt};
+      const double cosine = std::cos(step), sine = std::sin(step);
       const int last = helped;
       helped = -1;
       for (int i = 0; i < 4 && helped < 0; ++i) {
         const int k = last < 0 ? i : (last + i) % 4;  // go on in the direction that helped
         if (last >= 0 && k == (last ^ 1)) continue;   // never straight back
-        if (try_plane(std::cos(step) * m + std::sin(step) * moves[k])) helped = k;
+        if (try_plane(cosine * m + sine * moves[k])) helped = k;
       }
       if (helped < 0) step /= 2;
     }
@@ -202,14 +216,14 @@ inline void try_offers(const std::vector<PlaneOffer>& offers, PlaneSearch& searc
 
 // One round of one vertex. A seed starts in round 0, any other vertex once a neighbour has been visited.
 inline RoundResult search_round(const SliceTracer& tracer, const SearchOptions& options,
-                                const SearchState& state, int round, Index v,
-                                std::vector<PlaneOffer>& offers) {
+                                const std::vector<SpreadPlane>& spread, const SearchState& state, int round,
+                                Index v, std::vector<PlaneOffer>& offers) {
   const bool first_visit = !state.visited[v];
   PlaneSearch search(tracer, options, v, state.best[v].normal, state.objective[v]);
   collect_offers(tracer.surface(), state, round, v, offers);
   try_offers(offers, search);
   if (round == 0) search.try_angles();
-  if (first_visit) search.try_spread();
+  if (first_visit) search.try_spread(spread);
   search.compass(round == 0 ? options.first_step : options.last_step);
   return {search.best(), search.objective()};
 }
