@@ -2,6 +2,7 @@
 
 #include <numeric>
 
+#include "mspskel/base/clones.h"
 #include "mspskel/mesh/detail/segment_triangle.h"
 
 namespace mspskel {
@@ -46,7 +47,8 @@ inline BoundingVolumeHierarchy::BoundingVolumeHierarchy(const SurfaceSnapshot& s
   }
 }
 
-inline ClosestPoint BoundingVolumeHierarchy::closest(const Vector3& p, double bound) const {
+MSPSKEL_AVX_CLONES inline ClosestPoint BoundingVolumeHierarchy::closest(const Vector3& p,
+                                                                        double bound) const {
   ClosestPoint best;
   double square = bound * bound;
   const detail::FilterPoint rough(p, reach_);
@@ -85,9 +87,8 @@ void BoundingVolumeHierarchy::along_ray(const Vector3& origin, const Vector3& un
   });
 }
 
-inline std::optional<RayHit> BoundingVolumeHierarchy::first_hit(const Vector3& origin,
-                                                                const Vector3& direction,
-                                                                double max_distance) const {
+MSPSKEL_AVX_CLONES inline std::optional<RayHit> BoundingVolumeHierarchy::first_hit(
+    const Vector3& origin, const Vector3& direction, double max_distance) const {
   const Vector3 unit = direction.normalized();
   RayHit best{kNone, max_distance};
   along_ray(origin, unit, best.distance, [&](Index slot) {
@@ -170,7 +171,8 @@ inline bool BoundingVolumeHierarchy::in_winding(const Vector3& p) const {
   return std::lround(angle / (4 * kPi)) % 2 != 0;
 }
 
-inline bool BoundingVolumeHierarchy::segment_crosses(const Vector3& a, const Vector3& b) const {
+MSPSKEL_AVX_CLONES inline bool BoundingVolumeHierarchy::segment_crosses(const Vector3& a,
+                                                                        const Vector3& b) const {
   const double length = (b - a).norm();
   if (!(length > 0)) return false;
   bool crossed = false;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "mspskel/base/clones.h"
+
 namespace mspskel {
 
 inline SliceTracer::SliceTracer(const SurfaceSnapshot& surface) : surface_(surface) {
@@ -129,8 +131,8 @@ class SliceTracer::PairWalk {
 
 // Length and signed area (oriented by the surface) of the contour; length = infinity once it cannot stay
 // below `bound`.
-inline SliceTracer::Measure SliceTracer::measure(Index start, const Side& side, double bound,
-                                                 std::int64_t& steps) const {
+MSPSKEL_AVX_CLONES inline SliceTracer::Measure SliceTracer::measure(Index start, const Side& side,
+                                                                    double bound, std::int64_t& steps) const {
   using namespace detail::two_walks;
   PairWalk walk(*this, start, side);
   const Lanes3 first = walk.crossing();
