@@ -97,6 +97,18 @@ inline void carry_over(ExtractResult& result, ArcGraph& arcs) {
   arcs.hub_of_vertex = carried_over(arcs.hub_of_vertex, from, kNone);
 }
 
+// The cocycles of the input itself, found beside the arcs. No progress is reported: that is for the thread
+// that runs the stages.
+inline std::future<VolumeCocycles> cocycles_of_input(const ExtractResult& result,
+                                                     const ExtractOptions& options) {
+  VertexSlices slices =
+      result.coarse ? carried_over(result.slices, result.coarse->coarse_vertex) : result.slices;
+  return std::async(beside(options.execution),
+                    [&surface = result.surface, &options, slices = std::move(slices)] {
+                      return compute_volume_cocycles(surface, slice_candidates(slices), options.cocycles, {});
+                    });
+}
+
 inline void collect_warnings(ExtractResult& result) {
   if (result.skeleton_mesh.without_slice > 0)
     result.warnings.push_back(std::to_string(result.skeleton_mesh.without_slice) +
@@ -171,6 +183,8 @@ inline ExtractResult extract_skeleton_of_snapshot(SurfaceSnapshot surface, const
   clock.lap("hierarchy");
   const SurfaceSnapshot& working = result.coarse ? result.coarse->surface : shells;
   detail::run_surface_stages(working, solid, options, result, clock);
+  std::future<VolumeCocycles> input_cocycles;
+  if (result.coarse || oriented) input_cocycles = detail::cocycles_of_input(result, options);
   ArcGraph arcs;
   if (options.refinement.enabled) {
     arcs = make_arc_graph(result.collapsed);
@@ -179,9 +193,8 @@ inline ExtractResult extract_skeleton_of_snapshot(SurfaceSnapshot surface, const
     clock.lap("arcs");
   }
   if (result.coarse) detail::carry_over(result, arcs);
-  if (result.coarse || oriented) {
-    result.cocycles = compute_volume_cocycles(result.surface, slice_candidates(result.slices),
-                                              options.cocycles, options.execution.progress);
+  if (input_cocycles.valid()) {
+    result.cocycles = input_cocycles.get();
     clock.lap("cocycles");
   }
   if (options.refinement.enabled) {
