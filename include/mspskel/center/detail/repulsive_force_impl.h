@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "mspskel/base/clones.h"
+
 namespace mspskel {
 namespace detail::slice_centre {
 
@@ -166,7 +168,7 @@ inline FieldValue repulsive_field(const PlanarRegion& region, const Vector2& p) 
   return value;
 }
 
-inline FieldValue area_field(const PlanarRegion& region, const Vector2& p) {
+MSPSKEL_AVX_CLONES inline FieldValue area_field(const PlanarRegion& region, const Vector2& p) {
   detail::slice_centre::LogTable table;
   detail::slice_centre::AreaSums sums;
   constexpr Index kChunk = detail::slice_centre::LogTable::kPoints;

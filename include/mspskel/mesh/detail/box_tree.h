@@ -11,6 +11,7 @@
 #include <emmintrin.h>
 #endif
 
+#include "mspskel/base/clones.h"
 #include "mspskel/base/types.h"
 
 namespace mspskel {
@@ -101,7 +102,7 @@ inline Lanes low_of(const PrimitiveBox& b) { return load(b.low); }
 inline Lanes high_of(const PrimitiveBox& b) { return load(b.high); }
 
 // Where to cut [begin, end) in two, after reordering it: 16 bins along the longest axis of the centres.
-inline Index split(PrimitiveBox* boxes, Index begin, Index end, bool halve) {
+MSPSKEL_AVX_CLONES inline Index split(PrimitiveBox* boxes, Index begin, Index end, bool halve) {
   constexpr int kBins = 16;
   Bounds centres;
   for (Index i = begin; i < end; ++i) {

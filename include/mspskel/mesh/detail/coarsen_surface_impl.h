@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "mspskel/base/clones.h"
 #include "mspskel/mesh/detail/collapsing_surface.h"
 
 namespace mspskel {
@@ -27,7 +28,8 @@ namespace detail {
 using CostedEdge = std::pair<double, Index>;
 
 // The cheapest share of the edges that are not blocked, in the order of their cost.
-inline void cheapest_edges(CollapsingSurface& mesh, Index target, std::vector<CostedEdge>& edges) {
+MSPSKEL_AVX_CLONES inline void cheapest_edges(CollapsingSurface& mesh, Index target,
+                                              std::vector<CostedEdge>& edges) {
   // More passes follow the costs more closely, which matters little far from the target.
   const double of_edges = mesh.vertex_count() > 8.0 * target ? 0.3 : 0.15;
   constexpr std::size_t kLeast = 64;  // so that the last few take no pass each

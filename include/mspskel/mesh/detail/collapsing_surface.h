@@ -6,6 +6,7 @@
 #include <numeric>
 #include <vector>
 
+#include "mspskel/base/clones.h"
 #include "mspskel/mesh/coarsen_surface.h"
 #include "mspskel/mesh/detail/moment_frame.h"
 #include "mspskel/mesh/detail/quadric.h"
@@ -229,7 +230,7 @@ inline void CollapsingSurface::remove_face(Index h) {
 }
 
 // Merges the origin of h into its target, where permitted; blocks the edge otherwise.
-inline CollapseOutcome CollapsingSurface::collapse(Index h) {
+MSPSKEL_AVX_CLONES inline CollapseOutcome CollapsingSurface::collapse(Index h) {
   if (!permits_counts(h)) return cost(h) = kBlocked, CollapseOutcome::kRefusedTopology;
   MergedRing ring;
   gather(h, ring);

@@ -189,7 +189,8 @@ inline SliceTracer::Shortest SliceTracer::shortest_through(Index v, const Vector
   return best;
 }
 
-inline void SliceTracer::trace(Index start, const Plane& plane, Index through, Contour& contour) const {
+MSPSKEL_AVX_CLONES inline void SliceTracer::trace(Index start, const Plane& plane, Index through,
+                                                  Contour& contour) const {
   contour.halfedge.clear();
   contour.weight.clear();
   contour.point.clear();
