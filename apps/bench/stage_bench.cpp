@@ -29,7 +29,8 @@ struct Stages {
     collapsed = collapse_skeleton_mesh(working, coherent, cocycles.label, options.collapse);
     graph = make_arc_graph(collapsed);
     refined = graph;
-    refine_arcs(refined, working, input, solid, slices, options.refinement);
+    tips = find_limb_tips(working, solid, slices, options.refinement.pruning);
+    refine_arcs(refined, working, input, solid, slices, tips, options.refinement);
     carry_over();
   }
 
@@ -55,6 +56,7 @@ struct Stages {
   VolumeCocycles cocycles, input_cocycles;
   CollapsedSkeleton collapsed;
   ArcGraph graph, refined;
+  std::vector<LimbTip> tips;
   std::vector<double> perimeter, error;  // per input vertex
 };
 
@@ -132,7 +134,7 @@ void arcs(benchmark::State& state, const Stages& s, const Execution& execution) 
   for (auto _ : state) {
     ArcGraph graph = s.graph;
     benchmark::DoNotOptimize(
-        refine_arcs(graph, s.working, s.input, s.solid, s.slices, s.options.refinement, execution));
+        refine_arcs(graph, s.working, s.input, s.solid, s.slices, s.tips, s.options.refinement, execution));
   }
   state.counters["arcs"] = s.graph.arc_count();
 }

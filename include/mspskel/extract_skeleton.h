@@ -39,6 +39,9 @@ struct ExtractOptions {
   // this one is to have; arcs are centred in the input's solid, and values are carried over to its vertices.
   bool coarsen = true;
   CoarseningOptions coarsening;
+  // Limbs are told on a surface of so many vertices where the input is finer; [4, 2^31). With no more than
+  // coarsening.vertices, on that one.
+  Index limb_vertices = 4000;
   SliceMethod slices = SliceMethod::kSearch;
   SearchOptions search;      // of kSearch
   SamplingOptions sampling;  // of kSampling

@@ -445,6 +445,23 @@ TEST_CASE("Short leaf arcs are aimed at the end of their limb, and ends that rea
   CHECK(aim_ends(graph, solid.surface, solid.hierarchy, 0.05) == 0);
 }
 
+TEST_CASE("A leaf arc that stands for a tip is led to its target") {
+  const Solid solid(to_mesh(skin_graph(tripod(), 1200)));
+  ArcGraph graph = tripod_arcs(solid, 0.5, nullptr);
+  const std::vector<LimbTip> tips = find_limb_tips(solid.surface, solid.hierarchy, solid.slices(), {});
+  REQUIRE(tips.size() == 3);
+  CHECK(aim_at_tips(graph, solid.hierarchy, tips, 0.01) == 3);
+  const auto at = graph.incidence();
+  for (const LimbTip& tip : tips) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (Index h = 0; h < graph.hub_count(); ++h)
+      if (graph.hub_alive[h] && at[h].size() == 1)
+        nearest = std::min(nearest, (graph.hub_position[h] - tip.target).norm());
+    CHECK(nearest < 0.02);
+  }
+  CHECK(crossings(graph, solid.hierarchy) == 0);
+}
+
 TEST_CASE("Ends grow along a capsule up to the wanted distance before its tips") {
   SampleOptions options;
   options.resolution = 600;

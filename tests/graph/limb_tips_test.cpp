@@ -3,10 +3,12 @@
 #include "mspskel/graph/limb_tips.h"
 
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <set>
 
 #include "graph/solids.h"
+#include "mspskel/mesh/coarsen_surface.h"
 
 using namespace mspskel;
 using namespace mspskel::test;
@@ -80,13 +82,63 @@ TEST_CASE("Tips stay the same vertices when the model is turned, moved and scale
 }
 
 TEST_CASE("Pieces have tips of their own, and nothing to measure gives none") {
-  const Solid rings(sample("hopf-link", 2000));
-  PruningOptions all;
-  all.significance = 0;
-  all.smallest = 0;
-  std::set<Index> components;
-  for (const LimbTip& tip : find_limb_tips(rings.surface, rings.hierarchy, rings.slices(), all))
-    components.insert(rings.surface.component[tip.vertex]);
-  CHECK(static_cast<Index>(components.size()) == rings.surface.component_count);
-  CHECK(find_limb_tips(rings.surface, rings.hierarchy, rings.no_slices(), all).empty());
+  PolygonSoup pair = skin_graph(tripod(), 1200);
+  const PolygonSoup one = pair;
+  const auto shift = static_cast<Index>(one.points.size());
+  for (const Vector3& p : one.points) pair.points.push_back(p + Vector3(0, 5, 0));
+  for (std::size_t f = 0; f < one.polygon_count(); ++f) {
+    for (Index c = one.begin[f]; c < one.begin[f + 1]; ++c) pair.corners.push_back(one.corners[c] + shift);
+    pair.begin.push_back(static_cast<Index>(pair.corners.size()));
+  }
+  const Solid solid(to_mesh(pair));
+  std::array<int, 2> count{0, 0};
+  for (const LimbTip& tip : tips_of(solid)) ++count[solid.surface.component[tip.vertex]];
+  CHECK(count == std::array<int, 2>{3, 3});
+  CHECK(find_limb_tips(solid.surface, solid.hierarchy, solid.no_slices(), {}).empty());
+}
+
+TEST_CASE("The corners of a block are no limbs") {
+  for (const LimbTip& tip : tips_of(Solid(prism(4, 1.5, 13)))) CHECK(tip.significance.depth == 0);
+}
+
+TEST_CASE("A handle without limbs has no tips: the loop is its skeleton") {
+  CHECK(tips_of(Solid(torus(3, 1, 60, 24))).empty());
+}
+
+TEST_CASE("A knob on the farthest limb hides neither that limb nor the others") {
+  BallGraph limbs = tripod();
+  limbs.nodes.push_back({{0.75, 0, 2.9}, 0.12});
+  limbs.edges.push_back({1, static_cast<Index>(limbs.nodes.size()) - 1});
+  const Solid solid(to_mesh(skin_graph(limbs, 4000)));
+  std::set<Index> reached;
+  for (const LimbTip& tip : tips_of(solid))
+    for (Index i = 1; i < 4; ++i)
+      if ((solid.model(tip.position) - limbs.nodes[i].position).norm() < 1.5) reached.insert(i);
+  CHECK(reached.size() == 3);
+}
+
+TEST_CASE("Leaves are aimed at the middle of a limb's end, inside the solid") {
+  const Solid solid(to_mesh(skin_graph(tripod(), 4000)));
+  for (const LimbTip& tip : tips_of(solid)) {
+    CHECK((tip.target - tip.position).norm() < 0.5 * 0.4 / solid.surface.frame.scale);
+    CHECK((tip.target == tip.position || solid.hierarchy.inside(tip.target)));
+  }
+}
+
+TEST_CASE("Tips of a finer surface keep their places on the coarser one") {
+  const Solid solid(sample("octoped", 3000));
+  CoarseningOptions options;
+  options.vertices = 800;
+  const CoarseSurface coarse = coarsen_surface(solid.surface, options);
+  const std::vector<LimbTip> fine = tips_of(solid);
+  const std::vector<LimbTip> tips = on_coarser_surface(fine, coarse.coarse_vertex);
+  REQUIRE(tips.size() == fine.size());
+  for (std::size_t i = 0; i < tips.size(); ++i) {
+    CHECK(tips[i].position == fine[i].position);
+    CHECK(tips[i].vertex == coarse.coarse_vertex[fine[i].vertex]);
+    CHECK(std::is_sorted(tips[i].cap.begin(), tips[i].cap.end()));
+    CHECK_FALSE(tips[i].cap.empty());
+    for (const Index v : fine[i].cap)
+      CHECK(std::binary_search(tips[i].cap.begin(), tips[i].cap.end(), coarse.coarse_vertex[v]));
+  }
 }

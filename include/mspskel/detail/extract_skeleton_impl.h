@@ -48,6 +48,45 @@ inline std::launch beside(const Execution& execution) {
   return thread_count(execution) > 1 ? std::launch::async : std::launch::deferred;
 }
 
+// Limbs are told on a surface between the input and the one that the other stages walk on: it shows smaller
+// ones, and finding their tips costs little.
+struct LimbSurface {
+  std::optional<CoarseSurface> between;  // none: the input itself
+  std::vector<Index> coarse_vertex;      // per vertex of it; empty if nothing is coarsened
+};
+
+// From the input to the surface that the stages walk on, by way of the limb surface where that is coarser.
+inline CoarseSurface coarsen_in_steps(const SurfaceSnapshot& input, const ExtractOptions& options,
+                                      LimbSurface& limbs) {
+  if (input.vertex_count() > options.limb_vertices && options.limb_vertices > options.coarsening.vertices) {
+    CoarseningOptions first = options.coarsening;
+    first.vertices = options.limb_vertices;
+    limbs.between = coarsen_surface(input, first, options.execution);
+  }
+  CoarseSurface coarse =
+      coarsen_surface(limbs.between ? limbs.between->surface : input, options.coarsening, options.execution);
+  limbs.coarse_vertex = coarse.coarse_vertex;
+  if (!limbs.between) return coarse;
+  coarse.coarse_vertex = carried_over(limbs.coarse_vertex, limbs.between->coarse_vertex, kNone);
+  coarse.collapses += limbs.between->collapses;
+  coarse.refused_topology += limbs.between->refused_topology;
+  coarse.refused_shape += limbs.between->refused_shape;
+  coarse.passes += limbs.between->passes;
+  return coarse;
+}
+
+// `slices` are of the surface that the stages walk on, and so are the vertices of the tips.
+inline std::vector<LimbTip> limb_tips(const SurfaceSnapshot& input, const LimbSurface& limbs,
+                                      const BoundingVolumeHierarchy& solid, const VertexSlices& slices,
+                                      const ExtractOptions& options) {
+  const PruningOptions& pruning = options.refinement.pruning;
+  if (limbs.coarse_vertex.empty()) return find_limb_tips(input, solid, slices, pruning, options.execution);
+  const SurfaceSnapshot& surface = limbs.between ? limbs.between->surface : input;
+  return on_coarser_surface(
+      find_limb_tips(surface, solid, carried_over(slices, limbs.coarse_vertex), pruning, options.execution),
+      limbs.coarse_vertex);
+}
+
 // From slices to the collapsed graph, all on one surface.
 inline void run_surface_stages(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
                                const ExtractOptions& options, ExtractResult& result, StageClock& clock) {
@@ -151,6 +190,7 @@ inline ExtractOptions thesis_options() {
 
 inline void validate(const ExtractOptions& options) {
   validate(options.coarsening);
+  if (options.limb_vertices < 4) throw UsageError("limb vertices must be at least 4");
   validate(options.search);
   validate(options.sampling);
   validate(options.cone);
@@ -175,8 +215,9 @@ inline ExtractResult extract_skeleton_of_snapshot(SurfaceSnapshot surface, const
   if (oriented)
     result.warnings.push_back(
         "shells that are turned inward (cavities) get a skeleton of their own, which lies in the cavity");
+  detail::LimbSurface limbs;
   if (options.coarsen && shells.vertex_count() > options.coarsening.vertices) {
-    result.coarse = coarsen_surface(shells, options.coarsening, options.execution);
+    result.coarse = detail::coarsen_in_steps(shells, options, limbs);
     clock.lap("coarsening");
   }
   const BoundingVolumeHierarchy solid = hierarchy.get();
@@ -188,8 +229,10 @@ inline ExtractResult extract_skeleton_of_snapshot(SurfaceSnapshot surface, const
   ArcGraph arcs;
   if (options.refinement.enabled) {
     arcs = make_arc_graph(result.collapsed);
+    const std::vector<LimbTip> tips = detail::limb_tips(shells, limbs, solid, result.slices, options);
+    clock.lap("limb_tips");
     result.refinement =
-        refine_arcs(arcs, working, shells, solid, result.slices, options.refinement, options.execution);
+        refine_arcs(arcs, working, shells, solid, result.slices, tips, options.refinement, options.execution);
     clock.lap("arcs");
   }
   if (result.coarse) detail::carry_over(result, arcs);

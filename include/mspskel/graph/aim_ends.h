@@ -14,6 +14,12 @@ namespace mspskel {
 Index aim_ends(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
                double step, const Execution& execution = {});
 
+// Leaf arcs that stand for a limb's tip (leaves_of_tips) are led straight to its target from their last point
+// that sees it, up to the one nearest to it. Returns the number of arcs that changed. Cost: O(vertices on
+// leaf arcs), a few queries a tip.
+Index aim_at_tips(ArcGraph& graph, const BoundingVolumeHierarchy& solid, const std::vector<LimbTip>& tips,
+                  double step);
+
 }  // namespace mspskel
 
 #include "mspskel/graph/detail/aim_ends_impl.h"

@@ -8,6 +8,7 @@
 #include "mspskel/base/progress.h"
 #include "mspskel/graph/arc_graph.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
+#include "mspskel/slice/detail/region_moments.h"
 
 namespace mspskel {
 
@@ -38,6 +39,7 @@ inline void validate(const CenteringOptions& o) {
 struct VisibleSection {
   Vector3 centre = Vector3::Zero();  // where rays in opposite directions balance (to first order)
   double radius = 0.0;               // of the disc of equal area
+  double half_width = 0.0;           // see slice/detail/region_moments.h
   double roundness = 0.0;            // 4π·area / perimeter², 1 for a disc
   double clearance = 0.0;            // the shortest ray
   bool closed = false;               // every ray met the surface

@@ -10,10 +10,10 @@ namespace mspskel {
 
 // Leads an arc to every tip that no leaf arc stands for. Then takes the vertex farthest outside all balls of
 // the skeleton, leads an arc to it from the nearest point of the skeleton (straight where that is free, else
-// along the middle of the solid), and keeps the arc if it is half as significant again as pruning asks of any
-// other; then the next vertex, until none protrudes enough. A new arc is a leaf, so the homotopy type stays.
-// It takes the vertices that it covers better. Returns the number of arcs added. Cost: O(vertices · points)
-// once, O(vertices · points of the arc) and a few queries an arc tried; at most 64 are tried.
+// along the middle of the solid), and keeps the arc if it is a quarter more significant than pruning asks of
+// any other; then the next vertex, until none protrudes enough. A new arc is a leaf, so the homotopy type
+// stays. It takes the vertices that it covers better. Returns the number of arcs added. Cost: O(vertices ·
+// points) once, O(vertices · points of the arc) and a few queries an arc tried; at most 64 are tried.
 Index complete_limbs(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
                      const VertexSlices& slices, const std::vector<LimbTip>& tips,
                      const PruningOptions& options, double step);

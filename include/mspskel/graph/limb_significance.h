@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "mspskel/base/error.h"
@@ -11,7 +10,7 @@ namespace mspskel {
 
 struct PruningOptions {
   // A leaf arc stays if its significance exceeds this; 0 to 100. Larger keeps fewer features.
-  double significance = 1.35;
+  double significance = 2.0;
   // ... and if its surface reaches beyond the balls of the rest of the skeleton by more than this share of
   // the model's extent; 0 to 1. Below it everything counts as noise.
   double smallest = 0.01;
@@ -36,10 +35,6 @@ struct LeafSignificance {
   double value() const;
 };
 
-// Half the longer side of the rectangle of the same perimeter and area: half the width of a flat slice, π/4
-// radii of a disc.
-double slice_half_width(double perimeter, double area);
-
 namespace detail {
 
 // The value at the given share of the sorted list; 0 if that is empty.
@@ -52,12 +47,8 @@ inline double value_at_rank(std::vector<double> values, double share) {
 
 }  // namespace detail
 
-inline double slice_half_width(double perimeter, double area) {
-  return 0.25 * (perimeter / 2 + std::sqrt(std::max(0.0, perimeter * perimeter / 4 - 4 * area)));
-}
-
 inline double LeafSignificance::value() const {
-  return half_width > 0 ? depth / half_width * std::sqrt(std::min(msp_ratio, 9.0)) : 0.0;
+  return half_width > 0 ? depth / half_width * std::min(msp_ratio, 9.0) : 0.0;
 }
 
 }  // namespace mspskel

@@ -12,7 +12,11 @@
 namespace mspskel {
 
 struct LimbTip {
-  Index vertex = kNone;  // the one farthest from the middle of the shape
+  Index vertex = kNone;                // the one farthest from the middle of the shape
+  Vector3 position = Vector3::Zero();  // of that vertex on the surface on which the tip was found
+  // The mean of the surface at the very end, or `position` where that lies outside the solid: a leaf led
+  // there does not run into a corner of a flat end.
+  Vector3 target = Vector3::Zero();
   // Its depth: how far the vertex is beyond where the limb meets what is farther still.
   LeafSignificance significance;
   std::vector<Index> cap;  // the end: the outer half of that depth, and at most 1.5 half widths
@@ -22,14 +26,18 @@ struct LimbTip {
 // the parts of the surface beyond a distance grow together as the distance falls, the limbs that they stand
 // for meet, so a limb is as deep as its maximum is persistent (Edelsbrunner, Letscher and Zomorodian 2002,
 // "Topological persistence and simplification"). Noise moves no depth by more than twice its size, and the
-// surface's triangles do not matter. The width of a limb is the median of its slices. The limb that reaches
-// farthest is measured where it meets the first significant one. A limb across the way to another one, such
-// as an ear, is measured less than its length; what goes round a handle has a maximum too, though no limb. In
-// a component with fewer than two such limbs the ends of its longest way are tips of depth 0. Cost: a segment
-// query a vertex, O(vertices log vertices).
+// surface's triangles do not matter. A limb is deeper than 2.5 smallest features. The width of a limb is the
+// median of its slices. What reaches farthest counts where something else does, and its end is measured where
+// it meets the first other limb. A limb across the way to another one, such as an ear, is measured less than
+// its length; what goes round a handle has a maximum too, though no limb. In a component of genus 0 without
+// limbs the ends of its longest way are tips of depth 0. Cost: a segment query a vertex, O(vertices log
+// vertices).
 std::vector<LimbTip> find_limb_tips(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
                                     const VertexSlices& slices, const PruningOptions& options,
                                     const Execution& execution = {});
+
+// The tips as vertices of a coarser surface, whose vertex each vertex merged into.
+std::vector<LimbTip> on_coarser_surface(std::vector<LimbTip> tips, const std::vector<Index>& coarse_vertex);
 
 }  // namespace mspskel
 

@@ -6,6 +6,7 @@
 #include "mspskel/graph/center_arcs.h"
 #include "mspskel/graph/complete_limbs.h"
 #include "mspskel/graph/extend_ends.h"
+#include "mspskel/graph/lay_axes.h"
 #include "mspskel/graph/limb_tips.h"
 #include "mspskel/graph/limit_nodes.h"
 #include "mspskel/graph/merge_joints.h"
@@ -38,6 +39,7 @@ inline void validate(const RefinementOptions& o) {
 }
 
 struct RefinementCounts {
+  Index axes = 0;    // components without limbs that got a straight arc
   Index pruned = 0;  // leaf arcs removed
   Index joints_merged = 0;
   Index completed = 0;  // arcs added for limbs that had none
@@ -52,12 +54,14 @@ class ArcRefinement {
  public:
   ArcRefinement(ArcGraph& graph, const SurfaceSnapshot& surface, const SurfaceSnapshot& input,
                 const BoundingVolumeHierarchy& solid, const VertexSlices& slices,
-                const RefinementOptions& options, const Execution& execution)
+                const std::vector<LimbTip>& tips, const RefinementOptions& options,
+                const Execution& execution)
       : graph_(graph),
         surface_(surface),
         input_(input),
         solid_(solid),
         slices_(slices),
+        tips_(tips),
         options_(options),
         execution_(execution),
         type_(homotopy_type(graph)),
@@ -72,7 +76,8 @@ class ArcRefinement {
   }
 
   RefinementCounts run() {
-    tips_ = find_limb_tips(surface_, solid_, slices_, options_.pruning, execution_);
+    counts_.axes = lay_axes(graph_, surface_, solid_, tips_);
+    keep_type("laying of axes");
     route();
     aim();
     prune(options_.first_pruning);  // hairs would pull on the arcs that they leave
@@ -118,6 +123,7 @@ class ArcRefinement {
   }
   void aim() {
     aim_ends(graph_, surface_, solid_, options_.centering.step, execution_);
+    aim_at_tips(graph_, solid_, tips_, options_.centering.step);
     keep_type("aiming of ends");
   }
   void prune(double share) {
@@ -159,10 +165,10 @@ class ArcRefinement {
   const SurfaceSnapshot& input_;
   const BoundingVolumeHierarchy& solid_;
   const VertexSlices& slices_;
+  const std::vector<LimbTip>& tips_;
   const RefinementOptions& options_;
   const Execution& execution_;
   const ArcGraphType type_;
-  std::vector<LimbTip> tips_;
   InnerGraph inner_;
   CenteringOptions draft_, touch_up_;
   RefinementCounts counts_;
@@ -171,15 +177,15 @@ class ArcRefinement {
 }  // namespace detail
 
 // Every step keeps the number of components and of independent cycles: leaf arcs go, arcs that are no loops
-// contract, points move. `slices` and the graph's map are of the vertices of `surface`; `input` is the
-// surface that bounds `solid`, and the same one unless `surface` is coarser. Throws UsageError, Cancelled,
-// and NoSkeletonError if a step broke that promise, which would be a bug.
+// contract, points move. `slices`, `tips` and the graph's map are of the vertices of `surface`; `input` is
+// the surface that bounds `solid`, and the same one unless `surface` is coarser. Throws UsageError,
+// Cancelled, and NoSkeletonError if a step broke that promise, which would be a bug.
 inline RefinementCounts refine_arcs(ArcGraph& graph, const SurfaceSnapshot& surface,
                                     const SurfaceSnapshot& input, const BoundingVolumeHierarchy& solid,
-                                    const VertexSlices& slices, const RefinementOptions& options,
-                                    const Execution& execution = {}) {
+                                    const VertexSlices& slices, const std::vector<LimbTip>& tips,
+                                    const RefinementOptions& options, const Execution& execution = {}) {
   validate(options);
-  return detail::ArcRefinement(graph, surface, input, solid, slices, options, execution).run();
+  return detail::ArcRefinement(graph, surface, input, solid, slices, tips, options, execution).run();
 }
 
 }  // namespace mspskel

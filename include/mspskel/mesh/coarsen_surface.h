@@ -10,7 +10,7 @@
 namespace mspskel {
 
 struct CoarseningOptions {
-  Index vertices = 2600;          // stop at this many; more stay where no collapse is permitted. [4, 2^31)
+  Index vertices = 1600;          // stop at this many; more stay where no collapse is permitted. [4, 2^31)
   Index component_vertices = 50;  // no component is thinned below this many. [4, 2^31)
   // Weight of the squared distance to the vertices merged, beside that to the planes of their faces. It
   // evens out the edges: they differ in length by curvature only where they exceed 8 √spread of the radius of

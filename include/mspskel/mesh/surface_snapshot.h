@@ -74,6 +74,10 @@ void for_each_neighbour(const SurfaceSnapshot& surface, Index v, Visit&& visit) 
   } while (h != first);
 }
 
+// 2V − F of each component, twice its Euler characteristic, since a closed triangle mesh has 3F = 2E: 4 for a
+// sphere, 4 less for every handle. O(faces).
+std::vector<Index> twice_euler_characteristics(const SurfaceSnapshot& surface);
+
 // Copies any OpenMesh triangle mesh. Cost: O(faces).
 // Throws MeshError if the mesh is empty, not closed, has a vertex where two fans meet, or a coordinate that
 // is not finite.

@@ -5,6 +5,7 @@
 
 #include "mspskel/base/axis_angle.h"
 #include "mspskel/base/progress.h"
+#include "mspskel/slice/detail/region_moments.h"
 #include "mspskel/slice/vertex_slices.h"
 
 namespace mspskel {
@@ -90,10 +91,25 @@ inline Vector3 contour_centre(const Contour& contour) {
   return sum / total;
 }
 
+inline double contour_half_width(const Contour& contour, const Vector3& normal) {
+  const Vector3 u = normal.unitOrthogonal(), w = normal.cross(u);
+  RegionMoments moments;
+  const Vector3& origin = contour.point.front();
+  double ax = 0, ay = 0;
+  for (const Vector3& point : contour.point) {
+    const Vector3 b = point - origin;
+    const double bx = u.dot(b), by = w.dot(b);
+    moments.add(ax, ay, bx, by);
+    ax = bx;
+    ay = by;
+  }
+  return moments.half_width();
+}
+
 }  // namespace detail
 
-// Fills in the errors, areas, centres and numbers of points of every vertex with a slice. Cost: one trace a
-// vertex. Throws Cancelled.
+// Fills in the errors, areas, half widths, centres and numbers of points of every vertex with a slice. Cost:
+// one trace a vertex. Throws Cancelled.
 inline void compute_slice_errors(const SliceTracer& tracer, const SliceErrorOptions& options,
                                  VertexSlices& slices, const Execution& execution = {}) {
   const SurfaceSnapshot& surface = tracer.surface();
@@ -104,6 +120,7 @@ inline void compute_slice_errors(const SliceTracer& tracer, const SliceErrorOpti
         if (!slice_contour(tracer, slices, v, contour)) return;
         steps[v] = static_cast<std::int64_t>(contour.point.size());
         slices.area[v] = contour.area;
+        slices.half_width[v] = detail::contour_half_width(contour, slices.normal[v]);
         slices.centre[v] = detail::contour_centre(contour);
         slices.contour_points[v] = static_cast<Index>(contour.point.size());
         slices.error[v] = detail::raw_slice_error(surface, slices, v, contour, options.average);

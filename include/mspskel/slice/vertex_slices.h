@@ -17,6 +17,7 @@ struct VertexSlices {
   std::vector<Index> start;           // half-edge on which the contour's walk starts
   std::vector<Vector3> centre;        // of the contour, by arc length; filled in with the errors
   std::vector<double> area;           // that the contour encloses; filled in with the errors
+  std::vector<double> half_width;     // of the region in the contour, see detail/region_moments.h; as above
   std::vector<double> error;          // E_s(v), normalised to [0, 1] (Eq. 3.2, 4.3)
   std::vector<Index> contour_points;  // crossings on the contour; filled in with the errors
   std::vector<std::uint8_t> valid;
@@ -32,6 +33,7 @@ struct VertexSlices {
     start.assign(n, kNone);
     centre.assign(n, Vector3::Zero());
     area.assign(n, 0.0);
+    half_width.assign(n, 0.0);
     error.assign(n, 1.0);
     contour_points.assign(n, 0);
     valid.assign(n, 0);
@@ -58,6 +60,7 @@ inline VertexSlices carried_over(const VertexSlices& coarse, const std::vector<I
   s.start.assign(coarse_vertex.size(), kNone);
   s.centre = carried_over(coarse.centre, coarse_vertex, Vector3(Vector3::Zero()));
   s.area = carried_over(coarse.area, coarse_vertex, 0.0);
+  s.half_width = carried_over(coarse.half_width, coarse_vertex, 0.0);
   s.error = carried_over(coarse.error, coarse_vertex, 1.0);
   s.contour_points = carried_over(coarse.contour_points, coarse_vertex, Index{0});
   s.valid = carried_over(coarse.valid, coarse_vertex, std::uint8_t{0});

@@ -54,6 +54,29 @@ inline bool aim_arc(std::vector<Vector3>& points, const Vector3& target, bool wi
   return points.size() > before;
 }
 
+// Cuts the polyline off behind its last point that sees the target, no farther than the one nearest to it,
+// and leads it on: to a target inside the solid, or up to where the ball nearly touches one on the surface.
+inline bool lead_to_target(std::vector<Vector3>& points, const Vector3& target, bool target_inside,
+                           const BoundingVolumeHierarchy& solid, double step) {
+  const double share = target_inside ? 1.0 : 0.98;  // the target's own faces are no obstacle
+  std::size_t nearest = 0;
+  for (std::size_t i = 1; i < points.size(); ++i)
+    if ((points[i] - target).squaredNorm() <= (points[nearest] - target).squaredNorm()) nearest = i;
+  std::size_t count = nearest + 1;
+  while (count > 0 &&
+         solid.segment_crosses(points[count - 1], points[count - 1] + share * (target - points[count - 1])))
+    --count;
+  if (count == 0) return false;
+  const std::vector<Vector3> before = points;
+  points.resize(count);
+  if (target_inside)
+    points.push_back(target);
+  else
+    lead_towards(points, target, solid, step);
+  if (points.size() < 2) points = before;
+  return points != before;
+}
+
 }  // namespace detail
 
 inline Index aim_ends(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
@@ -78,6 +101,28 @@ inline Index aim_ends(ArcGraph& graph, const SurfaceSnapshot& surface, const Bou
                                     [&](const Vector3& x) { return (x - hub.centre).norm() < hub.radius; });
     if (!detail::aim_arc(points, surface.position[v], within, solid, step)) continue;
     graph.hub_position[tip] = points.back();
+    if (reversed) std::reverse(points.begin(), points.end());
+    arc.points = std::move(points);
+    ++aimed;
+  }
+  return aimed;
+}
+
+inline Index aim_at_tips(ArcGraph& graph, const BoundingVolumeHierarchy& solid,
+                         const std::vector<LimbTip>& tips, double step) {
+  const auto at = graph.incidence();
+  const detail::ArcParts parts(graph, at);
+  const std::vector<std::size_t> leaf_of_tip = detail::leaves_of_tips(graph, parts, tips);
+  Index aimed = 0;
+  for (std::size_t t = 0; t < tips.size(); ++t) {
+    if (leaf_of_tip[t] == detail::kNoLeaf || !(tips[t].significance.depth > 0)) continue;
+    const auto [a, joint] = parts.leaves[leaf_of_tip[t]];
+    Arc& arc = graph.arcs[a];
+    const bool reversed = arc.hub[1] == joint;
+    std::vector<Vector3> points = points_from(arc, reversed ? 1 : 0);
+    if (!detail::lead_to_target(points, tips[t].target, tips[t].target != tips[t].position, solid, step))
+      continue;
+    graph.hub_position[arc.hub[reversed ? 0 : 1]] = points.back();
     if (reversed) std::reverse(points.begin(), points.end());
     arc.points = std::move(points);
     ++aimed;

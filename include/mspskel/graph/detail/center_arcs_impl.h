@@ -231,17 +231,24 @@ inline VisibleSection visible_section(const BoundingVolumeHierarchy& solid, cons
   VisibleSection section;
   section.clearance = *std::min_element(r.begin(), r.begin() + rays);
   double area = 0, perimeter = 0, sum_u = 0, sum_w = 0;
+  detail::RegionMoments moments;
+  double at_u = r[rays - 1] * std::cos(2 * kPi / rays), at_w = -r[rays - 1] * std::sin(2 * kPi / rays);
   for (int i = 0; i < rays; ++i) {
     if (!std::isfinite(r[i])) return section;
     const double a = 2 * kPi * i / rays, turn = 2 * kPi / rays, s = r[(i + 1) % rays];
-    sum_u += r[i] * std::cos(a);
-    sum_w += r[i] * std::sin(a);
+    const double next_u = r[i] * std::cos(a), next_w = r[i] * std::sin(a);
+    moments.add(at_u, at_w, next_u, next_w);
+    at_u = next_u;
+    at_w = next_w;
+    sum_u += next_u;
+    sum_w += next_w;
     area += 0.5 * r[i] * s * std::sin(turn);
     perimeter += std::sqrt(std::max(0.0, r[i] * r[i] + s * s - 2 * r[i] * s * std::cos(turn)));
   }
   section.closed = true;
   section.centre = x + 2.0 / rays * (sum_u * u + sum_w * w);
   section.radius = std::sqrt(area / kPi);
+  section.half_width = moments.half_width();
   section.roundness = perimeter > 0 ? 4 * kPi * area / (perimeter * perimeter) : 0.0;
   return section;
 }

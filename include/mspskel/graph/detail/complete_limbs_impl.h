@@ -142,11 +142,12 @@ class LimbCompletion {
   }
 
   // The way from the skeleton to v: straight from the nearest point that sees v, or through the solid.
-  bool find_way(Index v, GraphPoint& start, std::vector<Vector3>& way) {
+  bool find_way(Index v, GraphPoint& start, std::vector<Vector3>& way, bool is_tip) {
     const Vector3& target = surface_.position[v];
     const auto points = nearest_points(target, surface_.component[v]);
     // Centring seldom halves the ball, so what lies that close to it is not worth a way.
-    if (points.empty() || outside_[v] < 0.5 * kCorner * solid_.distance(points.front().second.position))
+    if (points.empty()) return false;
+    if (!is_tip && outside_[v] < 0.5 * kCorner * solid_.distance(points.front().second.position))
       return false;
     for (const auto& [distance, point] : points) {
       const Vector3& x = point.position;
@@ -170,7 +171,7 @@ class LimbCompletion {
   bool try_limb(Index v, bool is_tip) {
     GraphPoint start;
     std::vector<Vector3> way;
-    if (!find_way(v, start, way)) return false;
+    if (!find_way(v, start, way, is_tip)) return false;
     if (!is_tip && !deserves_arc(way, v, kDoubt)) return false;
     // A few rounds of centring with the start held show the limb's true width.
     ArcGraph alone;

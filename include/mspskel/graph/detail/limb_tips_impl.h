@@ -10,8 +10,8 @@
 namespace mspskel {
 namespace detail {
 
-// A depth from the shape's middle counts what a depth beyond balls leaves out: the way to the limb's base.
-inline constexpr double kTipCaution = 1.4;
+// A depth from the middle of the shape is measured between vertices of the surface; in smallest features.
+inline constexpr double kLeastTipDepth = 2.5;
 
 // The components of the surface beyond a distance that falls, and the limbs found when they meet.
 class LimbTipSearch {
@@ -35,13 +35,15 @@ class LimbTipSearch {
       return distance_[a] != distance_[b] ? distance_[a] > distance_[b] : a < b;
     });
     for (const Index v : order) add(v, tips);
+    for (const Index v : order)
+      if (parent_[v] == v && part_[v].first) tips.push_back(std::move(*part_[v].first));
     return tips;
   }
 
  private:
   struct Part {
     Index top = kNone;
-    bool settled = false;  // its top is a tip, or tips have met in it
+    std::optional<LimbTip> first;  // its top, measured where it first met a limb
     std::vector<Index> vertices;
   };
 
@@ -70,37 +72,53 @@ class LimbTipSearch {
   // At the saddle v the part with the higher top takes the other one.
   void meet(Index high, Index low, Index v, std::vector<LimbTip>& tips) {
     Part &a = part_[high], &b = part_[low];
-    if (!b.settled) b.settled = settle(b, v, tips);
-    if (b.settled && !a.settled) settle(a, v, tips);
-    a.settled = a.settled || b.settled;
+    if (std::optional<LimbTip> tip = measure(b, v); tip && is_limb(*tip)) {
+      // Of a part in which limbs have met, only what was its own before is its end.
+      if (b.first) {
+        tip->cap = b.first->cap;
+        tip->target = b.first->target;
+      }
+      tips.push_back(std::move(*tip));
+      if (!a.first) a.first = measure(a, v);
+    }
     if (b.vertices.size() > a.vertices.size()) std::swap(a.vertices, b.vertices);
     a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
     std::vector<Index>().swap(b.vertices);
     parent_[low] = high;
   }
 
-  bool settle(const Part& part, Index saddle, std::vector<LimbTip>& tips) {
+  bool is_limb(const LimbTip& tip) const { return tip.significance.value() >= options_.significance; }
+
+  // The part as a limb that ends at the saddle; nothing if it has no slices or is too shallow.
+  std::optional<LimbTip> measure(const Part& part, Index saddle) {
     LimbTip tip;
     tip.vertex = part.top;
     LeafSignificance& s = tip.significance;
     s.depth = distance_[part.top] - distance_[saddle];
-    if (!(s.depth > options_.smallest)) return false;
+    if (!(s.depth > kLeastTipDepth * options_.smallest)) return std::nullopt;
     std::vector<double> perimeters, widths;
     for (const Index v : part.vertices) {
       if (!slices_.valid[v]) continue;
       perimeters.push_back(slices_.perimeter[v]);
-      widths.push_back(slice_half_width(slices_.perimeter[v], slices_.area[v]));
+      widths.push_back(slices_.half_width[v]);
     }
     s.half_width = value_at_rank(std::move(widths), 0.5);
     const double cap = 0.5 * std::min(s.depth, 3 * s.half_width);
-    for (const Index v : part.vertices)
-      if (distance_[v] > distance_[part.top] - cap) tip.cap.push_back(v);
+    const double end = std::min(0.5 * s.depth, 0.25 * s.half_width);
+    double area = 0;
+    for (const Index v : part.vertices) {
+      const double behind = distance_[part.top] - distance_[v];
+      if (behind < cap) tip.cap.push_back(v);
+      if (behind > end) continue;
+      tip.target += surface_.vertex_area[v] * surface_.position[v];
+      area += surface_.vertex_area[v];
+    }
+    if (!(area > 0)) return std::nullopt;
+    tip.target /= area;
     const double own = value_at_rank(std::move(perimeters), 0.5);
-    if (!(own > 0)) return false;
+    if (!(own > 0)) return std::nullopt;
     s.msp_ratio = std::max(1.0, parent_perimeter(part, saddle, 2 * s.half_width) / own);
-    if (s.value() < kTipCaution * options_.significance) return false;
-    tips.push_back(std::move(tip));
-    return true;
+    return tip;
   }
 
   // The median MSP round the saddle, the part itself left out.
@@ -159,17 +177,16 @@ inline std::vector<double> surface_distances(const SurfaceSnapshot& surface, con
   return distance;
 }
 
-// A component with fewer than two tips keeps its longest way: the two ends of it count as tips, without a
-// depth.
+// A component without limbs or handles keeps its longest way: the two ends of it count as tips, without a
+// depth. Where it has a handle, that is its skeleton.
 inline void add_longest_ways(const SurfaceSnapshot& surface, const SurfaceWays& ways,
                              const std::vector<double>& distance, std::vector<LimbTip>& tips) {
   constexpr double kCap = 0.85;  // of the way
   std::vector<Index> from = greatest_of_components(surface, [&](Index v) { return distance[v]; });
-  std::vector<int> count(from.size(), 0);
-  for (const LimbTip& tip : tips) {
-    const Index c = surface.component[tip.vertex];
-    from[c] = ++count[c] == 1 ? tip.vertex : kNone;
-  }
+  for (const LimbTip& tip : tips) from[surface.component[tip.vertex]] = kNone;
+  const std::vector<Index> twice_euler = twice_euler_characteristics(surface);
+  for (std::size_t c = 0; c < from.size(); ++c)
+    if (twice_euler[c] != 4) from[c] = kNone;
   if (std::all_of(from.begin(), from.end(), [](Index v) { return v == kNone; })) return;
   const std::vector<double> way = surface_distances(surface, ways, from);
   const std::vector<Index> to = greatest_of_components(surface, [&](Index v) { return way[v]; });
@@ -183,19 +200,21 @@ inline void add_longest_ways(const SurfaceSnapshot& surface, const SurfaceWays& 
   };
   for (Index c = 0; c < surface.component_count; ++c) {
     if (from[c] == kNone) continue;
-    if (count[c] == 0) add(c, from[c], back);
+    add(c, from[c], back);
     add(c, to[c], way);
   }
 }
 
-// A point in the solid near the middle of each component: in the slice of the vertex whose greatest distance
-// along the surface to four far vertices is least.
+// A point in the solid near the middle of each component: the mean centre of the slices whose vertices'
+// greatest distance along the surface to four far vertices is nearly the least; of the least alone where that
+// lies outside.
 inline std::vector<std::optional<Vector3>> middle_of_components(const SurfaceSnapshot& surface,
                                                                 const SurfaceWays& ways,
                                                                 const BoundingVolumeHierarchy& solid,
                                                                 const VertexSlices& slices) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   constexpr int kFar = 4;
+  constexpr double kNear = 0.1;  // farther than the least by this share counts no more
   const auto count = static_cast<std::size_t>(surface.component_count);
   const std::size_t n = surface.position.size();
   std::vector<Vector3> centroid(count, Vector3::Zero());
@@ -224,9 +243,21 @@ inline std::vector<std::optional<Vector3>> middle_of_components(const SurfaceSna
   for (std::size_t c = 0; c < count; ++c) {
     const Index v = least[c];
     if (v == kNone) continue;
+    // One vertex's slice would make the middle jump where several are as good.
+    Vector3 mean = Vector3::Zero();
+    double weight = 0;
+    for (std::size_t w = 0; w < n; ++w) {
+      if (!slices.valid[w] || surface.component[w] != surface.component[v]) continue;
+      const double share = surface.vertex_area[w] * (1 - (farthest[w] / farthest[v] - 1) / kNear);
+      if (!(share > 0)) continue;
+      mean += share * slices.centre[w];
+      weight += share;
+    }
     const Vector3 inward = -surface.normal[v];
     const Vector3 start = surface.position[v] + 1e-6 * inward;
-    if (solid.inside(slices.centre[v]))
+    if (weight > 0 && solid.inside(mean / weight))
+      middle[c] = mean / weight;
+    else if (solid.inside(slices.centre[v]))
       middle[c] = slices.centre[v];
     else if (const auto hit = solid.first_hit(start, inward))
       middle[c] = start + 0.5 * hit->distance * inward;
@@ -243,7 +274,21 @@ inline std::vector<LimbTip> find_limb_tips(const SurfaceSnapshot& surface,
   const auto middle = detail::middle_of_components(surface, ways, solid, slices);
   const std::vector<double> distance = inner_distances(surface, ways, solid, middle, execution);
   std::vector<LimbTip> tips = detail::LimbTipSearch(surface, slices, options, distance).run();
+  for (LimbTip& tip : tips)
+    if (!solid.inside(tip.target)) tip.target = surface.position[tip.vertex];
   detail::add_longest_ways(surface, ways, distance, tips);
+  for (LimbTip& tip : tips) tip.position = surface.position[tip.vertex];
+  return tips;
+}
+
+inline std::vector<LimbTip> on_coarser_surface(std::vector<LimbTip> tips,
+                                               const std::vector<Index>& coarse_vertex) {
+  for (LimbTip& tip : tips) {
+    tip.vertex = coarse_vertex[tip.vertex];
+    for (Index& v : tip.cap) v = coarse_vertex[v];
+    std::sort(tip.cap.begin(), tip.cap.end());
+    tip.cap.erase(std::unique(tip.cap.begin(), tip.cap.end()), tip.cap.end());
+  }
   return tips;
 }
 

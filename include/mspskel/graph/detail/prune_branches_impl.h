@@ -12,7 +12,7 @@ namespace detail {
 
 // A leaf arc of which the surface itself tells nothing needs better evidence: what it is measured by changes
 // with the rest of the skeleton.
-inline constexpr double kNoTipCaution = 2.5;
+inline constexpr double kNoTipCaution = 2.2;
 
 inline constexpr std::size_t kNoLeaf = static_cast<std::size_t>(-1);
 
@@ -57,7 +57,7 @@ struct ParentSlices {
     const auto collect = [&](Index v) {
       if (!slices.valid[v] || (surface.position[v] - graph.hub_position[joint]).norm() >= reach) return;
       perimeters.push_back(slices.perimeter[v]);
-      widths.push_back(slice_half_width(slices.perimeter[v], slices.area[v]));
+      widths.push_back(slices.half_width[v]);
     };
     for (const Index b : arcs_at_joint)
       if (b != leaf)
@@ -77,7 +77,7 @@ inline std::array<double, 2> section_size(const BoundingVolumeHierarchy& solid, 
   if (!section.closed) return {0.0, 0.0};
   const double area = kPi * section.radius * section.radius;
   const double perimeter = std::sqrt(4 * kPi * area / std::max(section.roundness, 1e-6));
-  return {slice_half_width(perimeter, area), perimeter};
+  return {section.half_width, perimeter};
 }
 
 // Medians over at most nine points of an arc outside the joint's ball.
@@ -165,7 +165,10 @@ class LeafPruner {
         parts_(graph, at_),
         score_(parts_.leaves.size()),
         has_tip_(parts_.leaves.size(), false),
+        limbless_(static_cast<std::size_t>(surface.component_count), false),
         stale_(parts_.leaves.size(), false) {
+    for (const LimbTip& tip : tips)
+      if (tip.significance.depth == 0) limbless_[surface.component[tip.vertex]] = true;
     for (const std::size_t leaf : leaves_of_tips(graph, parts_, tips))
       if (leaf != kNoLeaf) has_tip_[leaf] = true;
     // Once the hairs are gone every leaf arc has its tip, and nothing is to be measured.
@@ -207,6 +210,9 @@ class LeafPruner {
   double score(std::size_t i) const {
     if (has_tip_[i]) return 1.0;
     const auto [arc, joint] = parts_.leaves[i];
+    // Where the surface has no limbs at all, as in a cup without a handle, any arc would do as well.
+    const std::vector<Index>& vertices = parts_.vertices[arc];
+    if (!vertices.empty() && limbless_[surface_.component[vertices.front()]]) return 0.0;
     const LeafSignificance s =
         leaf_significance(graph_, surface_, solid_, slices_, *balls_, parts_, at_[joint], arc, joint);
     return std::min(options_.significance > 0 ? s.value() / (kNoTipCaution * options_.significance) : 1.0,
@@ -240,6 +246,7 @@ class LeafPruner {
   std::optional<ArcBalls> balls_;
   std::vector<double> score_;
   std::vector<bool> has_tip_;
+  std::vector<bool> limbless_;  // per component of the surface
   std::vector<bool> stale_;
 };
 

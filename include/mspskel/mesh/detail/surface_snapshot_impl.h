@@ -161,4 +161,12 @@ SurfaceSnapshot make_snapshot(const Mesh& mesh) {
   return s;
 }
 
+inline std::vector<Index> twice_euler_characteristics(const SurfaceSnapshot& surface) {
+  std::vector<Index> result(static_cast<std::size_t>(surface.component_count), 0);
+  for (Index v = 0; v < surface.vertex_count(); ++v)
+    if (surface.vertex_halfedge[v] != kNone) result[surface.component[v]] += 2;
+  for (Index h = 0; h < surface.halfedge_count(); h += 3) --result[surface.component[surface.origin[h]]];
+  return result;
+}
+
 }  // namespace mspskel

@@ -1,0 +1,23 @@
+// Solids without limbs: a straight arc along the axis in place of what the collapse made of them.
+#pragma once
+
+#include "mspskel/graph/arc_graph.h"
+#include "mspskel/graph/limb_tips.h"
+#include "mspskel/graph/route_inside.h"
+#include "mspskel/mesh/bounding_volume_hierarchy.h"
+#include "mspskel/mesh/surface_snapshot.h"
+
+namespace mspskel {
+
+// A block or a bust has no part that protrudes, so nothing in its slices tells one arc from another, and what
+// the collapse leaves there depends on the triangulation. Its moments do not: every component of genus 0
+// without a limb gets one arc through the centroid of its solid, along the principal axis that differs most
+// from the other two. The arc ends where its maximal balls nearly touch the surface ahead. Components whose
+// axis leaves the solid, as in a cup, stay as they are. `graph` and `tips` are of the vertices of `surface`;
+// tips of depth 0 are no limbs. Returns the number of arcs laid. Cost: O(faces), a few queries a component.
+Index lay_axes(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
+               const std::vector<LimbTip>& tips);
+
+}  // namespace mspskel
+
+#include "mspskel/graph/detail/lay_axes_impl.h"

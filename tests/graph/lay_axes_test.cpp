@@ -1,0 +1,74 @@
+// Straight arcs for solids without limbs.
+#include "mspskel/graph/lay_axes.h"
+
+#include <catch2/catch.hpp>
+
+#include "graph/arc_graphs.h"
+#include "graph/solids.h"
+#include "mspskel/extract_skeleton.h"
+
+using namespace mspskel;
+using namespace mspskel::test;
+
+namespace {
+
+// One crooked arc that stands for the whole surface.
+ArcGraph crooked(const Solid& solid) {
+  ArcGraph graph;
+  graph.add_hub(solid.surface.position.front() * 0.5);
+  graph.add_hub(solid.surface.position.back() * 0.5);
+  graph.arcs.push_back({{0, 1}, graph.hub_position, true});
+  graph.arc_of_vertex.assign(solid.surface.position.size(), 0);
+  graph.hub_of_vertex.assign(solid.surface.position.size(), kNone);
+  return graph;
+}
+
+}  // namespace
+
+TEST_CASE("A block gets one arc along its axis, whatever the collapse made of it") {
+  for (const double angle : {0.0, 0.7}) {
+    const Vector3 turn(0.2, 1, -0.4);
+    const Solid solid(rotated(prism(4, 5, 9), turn, angle));
+    ArcGraph graph = crooked(solid);
+    REQUIRE(lay_axes(graph, solid.surface, solid.hierarchy, {}) == 1);
+    CHECK(homotopy_type(graph) == ArcGraphType{1, 0});
+    const Arc& axis = graph.arcs.back();
+    REQUIRE(axis.alive);
+    const Vector3 along = (axis.points.back() - axis.points.front()).normalized();
+    const Vector3 expected = Eigen::AngleAxisd(angle, turn.normalized()) * Vector3::UnitZ();
+    CHECK(std::abs(along.dot(expected)) == Approx(1).epsilon(1e-6));
+    for (const Vector3& x : axis.points) CHECK(solid.hierarchy.inside(x));
+    for (const Index a : graph.arc_of_vertex) CHECK(a == graph.arc_count() - 1);
+  }
+}
+
+TEST_CASE("What has limbs, a handle, or air in its middle keeps its arcs") {
+  const Solid block(prism(4, 5, 9));
+  ArcGraph graph = crooked(block);
+  LimbTip limb;
+  limb.vertex = 0;
+  limb.significance.depth = 0.1;
+  CHECK(lay_axes(graph, block.surface, block.hierarchy, {limb}) == 0);
+  CHECK(graph.arcs.front().alive);
+  const Solid ring(torus(3, 1, 40, 20));
+  graph = crooked(ring);
+  CHECK(lay_axes(graph, ring.surface, ring.hierarchy, {}) == 0);
+  CHECK(graph.arcs.front().alive);
+}
+
+TEST_CASE("The skeleton of a block does not depend on its triangles") {
+  const auto ends = [](Index rings) {
+    const ExtractResult result = extract_skeleton(prism(4, 1.7, rings));
+    CHECK(result.refinement.axes == 1);
+    std::vector<double> heights;
+    for (const auto& node : result.skeleton.nodes) {
+      CHECK(std::hypot(node.position.x(), node.position.y()) < 0.02);
+      heights.push_back(node.position.z());
+    }
+    const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
+    return std::array<double, 2>{*low, *high};
+  };
+  const auto coarse = ends(9), fine = ends(13);
+  CHECK(coarse[0] == Approx(fine[0]).margin(0.02));
+  CHECK(coarse[1] == Approx(fine[1]).margin(0.02));
+}
