@@ -78,18 +78,21 @@ inline CoarseSurface coarsen_in_steps(const SurfaceSnapshot& input, const Extrac
 // `slices` are of the surface that the stages walk on, and so are the vertices of the tips.
 inline std::vector<LimbTip> limb_tips(const SurfaceSnapshot& input, const LimbSurface& limbs,
                                       const BoundingVolumeHierarchy& solid, const VertexSlices& slices,
-                                      const ExtractOptions& options) {
-  const PruningOptions& pruning = options.refinement.pruning;
-  if (limbs.coarse_vertex.empty()) return find_limb_tips(input, solid, slices, pruning, options.execution);
+                                      const PruningOptions& pruning) {
+  Execution alone;  // other stages run beside it
+  alone.threads = 1;
+  if (limbs.coarse_vertex.empty()) return find_limb_tips(input, solid, slices, pruning, alone);
   const SurfaceSnapshot& surface = limbs.between ? limbs.between->surface : input;
   return on_coarser_surface(
-      find_limb_tips(surface, solid, carried_over(slices, limbs.coarse_vertex), pruning, options.execution),
+      find_limb_tips(surface, solid, carried_over(slices, limbs.coarse_vertex), pruning, alone),
       limbs.coarse_vertex);
 }
 
-// From slices to the collapsed graph, all on one surface.
-inline void run_surface_stages(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
-                               const ExtractOptions& options, ExtractResult& result, StageClock& clock) {
+// From slices to the collapsed graph, all on one surface; `slices_are_known` is called between.
+template <class SlicesAreKnown>
+void run_surface_stages(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
+                        const ExtractOptions& options, ExtractResult& result, StageClock& clock,
+                        SlicesAreKnown&& slices_are_known) {
   SkeletonMeshOptions points = options.points;
   // Holes of a slice are contours of the surface that was sliced.
   std::optional<BoundingVolumeHierarchy> own;
@@ -98,6 +101,7 @@ inline void run_surface_stages(const SurfaceSnapshot& surface, const BoundingVol
     building = std::async(beside(options.execution), [&] { own.emplace(surface); });
   const SliceTracer tracer(surface);
   run_slice_stages(tracer, options, result, clock);
+  slices_are_known();
   if (building.valid()) building.get();
   points.solid = own ? &*own : &solid;
   result.skeleton_mesh = make_skeleton_mesh(tracer, result.slices, points, options.execution);
@@ -223,16 +227,22 @@ inline ExtractResult extract_skeleton_of_snapshot(SurfaceSnapshot surface, const
   const BoundingVolumeHierarchy solid = hierarchy.get();
   clock.lap("hierarchy");
   const SurfaceSnapshot& working = result.coarse ? result.coarse->surface : shells;
-  detail::run_surface_stages(working, solid, options, result, clock);
+  std::future<std::vector<LimbTip>> tips;
+  detail::run_surface_stages(working, solid, options, result, clock, [&] {
+    if (!options.refinement.enabled) return;
+    tips = std::async(detail::beside(options.execution), [&] {
+      return detail::limb_tips(shells, limbs, solid, result.slices, options.refinement.pruning);
+    });
+  });
   std::future<VolumeCocycles> input_cocycles;
   if (result.coarse || oriented) input_cocycles = detail::cocycles_of_input(result, options);
   ArcGraph arcs;
   if (options.refinement.enabled) {
     arcs = make_arc_graph(result.collapsed);
-    const std::vector<LimbTip> tips = detail::limb_tips(shells, limbs, solid, result.slices, options);
+    const std::vector<LimbTip> found = tips.get();
     clock.lap("limb_tips");
-    result.refinement =
-        refine_arcs(arcs, working, shells, solid, result.slices, tips, options.refinement, options.execution);
+    result.refinement = refine_arcs(arcs, working, shells, solid, result.slices, found, options.refinement,
+                                    options.execution);
     clock.lap("arcs");
   }
   if (result.coarse) detail::carry_over(result, arcs);
