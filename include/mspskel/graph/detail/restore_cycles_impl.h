@@ -71,6 +71,7 @@ class LabelledPaths {
   double step_cost(Index u, Index w) {
     return (point_[u] - point_[w]).norm() / std::max(std::min(clearance(u), clearance(w)), 1e-6);
   }
+  bool improves(Index node, double cost, const CocycleLabel& label) const;
   void reach(Index node, double cost, CocycleLabel label, Index from);
   void expand(Index state);
   std::vector<std::pair<double, Index>> entries(const Vector3& x);
@@ -81,6 +82,7 @@ class LabelledPaths {
     return points;
   }
 
+  static constexpr std::size_t kLabels = 12;  // at a node
   const SurfaceSnapshot& surface_;
   const BoundingVolumeHierarchy& solid_;
   const CrossingLabels& crossings_;
@@ -92,18 +94,23 @@ class LabelledPaths {
   std::priority_queue<std::pair<double, Index>, std::vector<std::pair<double, Index>>, std::greater<>> queue_;
 };
 
+// Whether reach would keep the way.
+inline bool LabelledPaths::improves(Index node, double cost, const CocycleLabel& label) const {
+  for (const Index s : at_[node])
+    if (states_[s].label == label) return !states_[s].done && cost < states_[s].cost;
+  return at_[node].size() < kLabels;
+}
+
 // Keeps the cheapest way for each label, and few labels a node: those are the ways that wind least.
 inline void LabelledPaths::reach(Index node, double cost, CocycleLabel label, Index from) {
-  constexpr std::size_t kLabels = 12;
+  if (!improves(node, cost, label)) return;
   for (const Index s : at_[node]) {
     if (states_[s].label != label) continue;
-    if (states_[s].done || states_[s].cost <= cost) return;
     states_[s].cost = cost;
     states_[s].from = from;
     queue_.push({cost, s});
     return;
   }
-  if (at_[node].size() >= kLabels) return;
   at_[node].push_back(static_cast<Index>(states_.size()));
   queue_.push({cost, static_cast<Index>(states_.size())});
   states_.push_back({node, from, cost, std::move(label), false});
@@ -114,8 +121,12 @@ inline void LabelledPaths::expand(Index state) {
   const CocycleLabel label = states_[state].label;
   const double cost = states_[state].cost;
   const auto step = [&](Index to) {
-    if (clearance(to) <= 0 || solid_.segment_crosses(point_[node], point_[to])) return;
-    reach(to, cost + step_cost(node, to), label + crossings_(point_[node], point_[to]), state);
+    if (clearance(to) <= 0) return;
+    const double there = cost + step_cost(node, to);
+    const CocycleLabel winding = label + crossings_(point_[node], point_[to]);
+    // Most steps lead back to where a cheaper way has been, and need no query.
+    if (improves(to, there, winding) && !solid_.segment_crosses(point_[node], point_[to]))
+      reach(to, there, winding, state);
   };
   step(node < n ? node + n : v);
   const Index first = surface_.vertex_halfedge[v];
