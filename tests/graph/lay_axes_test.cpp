@@ -23,6 +23,18 @@ ArcGraph crooked(const Solid& solid) {
   return graph;
 }
 
+// Both meshes as one.
+DefaultMesh beside(DefaultMesh a, const DefaultMesh& b) {
+  std::vector<DefaultMesh::VertexHandle> corner;
+  for (const auto v : b.vertices()) corner.push_back(a.add_vertex(b.point(v)));
+  for (const auto f : b.faces()) {
+    std::vector<DefaultMesh::VertexHandle> face;
+    for (const auto v : b.fv_range(f)) face.push_back(corner[static_cast<std::size_t>(v.idx())]);
+    a.add_face(face);
+  }
+  return a;
+}
+
 }  // namespace
 
 TEST_CASE("A block gets one arc along its axis, whatever the collapse made of it") {
@@ -40,6 +52,20 @@ TEST_CASE("A block gets one arc along its axis, whatever the collapse made of it
     for (const Vector3& x : axis.points) CHECK(solid.hierarchy.inside(x));
     for (const Index a : graph.arc_of_vertex) CHECK(a == graph.arc_count() - 1);
   }
+}
+
+TEST_CASE("Every block gets an axis of its own") {
+  const Solid pair(beside(prism(4, 5, 9), translated(prism(4, 5, 9), {20, 0, 0})));
+  REQUIRE(pair.surface.component_count == 2);
+  ArcGraph graph;
+  graph.arc_of_vertex.assign(pair.surface.position.size(), kNone);
+  graph.hub_of_vertex = pair.surface.component;
+  for (Index v = 0; v < pair.surface.vertex_count(); ++v)
+    if (graph.hub_count() == pair.surface.component[v]) graph.add_hub(pair.surface.position[v]);
+  CHECK(lay_axes(graph, pair.surface, pair.hierarchy, {}) == 2);
+  CHECK(homotopy_type(graph) == ArcGraphType{2, 0});
+  for (Index v = 0; v < pair.surface.vertex_count(); ++v)
+    CHECK(graph.arc_of_vertex[v] == pair.surface.component[v]);
 }
 
 TEST_CASE("What has limbs, a handle, or air in its middle keeps its arcs") {

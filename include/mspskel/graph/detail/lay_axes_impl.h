@@ -71,12 +71,14 @@ inline Index lay_axes(ArcGraph& graph, const SurfaceSnapshot& surface, const Bou
   const std::vector<Index> twice_euler = twice_euler_characteristics(surface);
   const std::vector<detail::SolidMoments> moments = detail::solid_moments(surface);
   const std::vector<Index> component = detail::hub_components(graph, surface);
+  const std::size_t collapsed_arcs = graph.arcs.size();
   Index laid = 0;
   for (Index c = 0; c < surface.component_count; ++c) {
     if (limbed[c] || twice_euler[c] != 4) continue;
     const auto points = detail::axis_points(moments[c], solid);
     if (!points) continue;
-    for (Arc& arc : graph.arcs) arc.alive = arc.alive && component[arc.hub[0]] != c;
+    for (std::size_t i = 0; i < collapsed_arcs; ++i)
+      if (component[graph.arcs[i].hub[0]] == c) graph.arcs[i].alive = false;
     for (Index h = 0; h < static_cast<Index>(component.size()); ++h)
       if (component[h] == c) graph.hub_alive[h] = false;
     Arc axis;
