@@ -4,7 +4,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 preset=${1:-release}
 further=()
-if [[ $preset == tsan ]]; then further=(clang libomp-dev); fi
+if [[ $preset == tsan ]]; then further=(clang libclang-rt-14-dev libomp-dev); fi
 scripts/install_packages.sh "${further[@]}"
 cmake --preset "$preset"
 cmake --build --preset "$preset"
