@@ -274,8 +274,12 @@ inline std::vector<LimbTip> find_limb_tips(const SurfaceSnapshot& surface,
   const auto middle = detail::middle_of_components(surface, ways, solid, slices);
   const std::vector<double> distance = inner_distances(surface, ways, solid, middle, execution);
   std::vector<LimbTip> tips = detail::LimbTipSearch(surface, slices, options, distance).run();
+  // Where few vertices make the end, their mean lies on the surface but for rounding.
+  constexpr double kLeastClearance = 0.05;  // half widths
   for (LimbTip& tip : tips)
-    if (!solid.inside(tip.target)) tip.target = surface.position[tip.vertex];
+    if (!solid.inside(tip.target) ||
+        solid.distance(tip.target) < kLeastClearance * tip.significance.half_width)
+      tip.target = surface.position[tip.vertex];
   detail::add_longest_ways(surface, ways, distance, tips);
   for (LimbTip& tip : tips) tip.position = surface.position[tip.vertex];
   return tips;
