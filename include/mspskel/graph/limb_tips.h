@@ -14,8 +14,7 @@ namespace mspskel {
 struct LimbTip {
   Index vertex = kNone;                // the one farthest from the middle of the shape
   Vector3 position = Vector3::Zero();  // of that vertex on the surface on which the tip was found
-  // The mean of the surface at the very end, or `position` where that lies outside the solid: a leaf led
-  // there does not run into a corner of a flat end.
+  // The mean of the surface at the very end, or `position` where that is not well inside the solid.
   Vector3 target = Vector3::Zero();
   // Its depth: how far the vertex is beyond where the limb meets what is farther still.
   LeafSignificance significance;
