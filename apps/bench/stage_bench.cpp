@@ -29,7 +29,7 @@ struct Stages {
     collapsed = collapse_skeleton_mesh(working, coherent, cocycles.label, options.collapse);
     graph = make_arc_graph(collapsed);
     refined = graph;
-    tips = find_limb_tips(working, solid, slices, options.refinement.pruning);
+    tips = find_limb_tips(working, solid, slices, options.refinement.limbs);
     refine_arcs(refined, working, input, solid, slices, tips, options.refinement);
     carry_over();
   }

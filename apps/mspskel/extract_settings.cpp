@@ -130,8 +130,8 @@ void add_arc_options(CommandLine& line, ExtractOptions& options, double& step, d
   line.number("--step", step, {0.0005, 0.5}, "distance of the nodes along an arc");
   line.number("--nodes", refinement.nodes, {0, 1e9}, "at most so many nodes; 0: as many as the step gives");
   line.number("--detail", detail, {0.01, 100},
-              "2 keeps branches half as significant as 1 does, 0.5 only those twice as significant");
-  line.number("--smallest", refinement.pruning.smallest, {0, 1}, "features below this size are noise");
+              "2 keeps limbs half as slender as 1 does, 0.5 only those twice as slender");
+  line.number("--smallest", refinement.limbs.smallest, {0, 1}, "features below this size are noise");
   line.number("--centring-rounds", refinement.centering.rounds, {0, 100}, "of sections and solves");
   line.number("--smoothness", refinement.centering.smoothness, {0, 1e6}, "weight of straight arcs");
   line.number("--tip-clearance", refinement.extension.tip_clearance, {0.05, 2},
@@ -180,7 +180,7 @@ bool parse_extract_settings(const std::vector<std::string>& arguments, ExtractSe
   if (line.given("--slices")) options.search.angles = options.sampling.planes = planes;
   if (line.given("--step")) options.refinement.centering.step = options.refinement.extension.step = step;
   options.execution.threads = settings.threads;
-  options.refinement.pruning.significance /= detail;
+  options.refinement.limbs.slenderness /= detail;
   settings.values = line.values();
   if (settings.outputs.empty())
     settings.outputs.push_back(

@@ -292,7 +292,7 @@ TEST_CASE("Options out of range are named before any work") {
   fails([](ExtractOptions& o) { o.refinement.extension.tip_clearance = 0; });
   fails([](ExtractOptions& o) { o.refinement.zip.closeness = 3; });
   fails([](ExtractOptions& o) { o.refinement.joint_overlap = -1; });
-  fails([&](ExtractOptions& o) { o.refinement.pruning.significance = nan; });
+  fails([&](ExtractOptions& o) { o.refinement.limbs.slenderness = nan; });
 }
 
 TEST_CASE("Meshes that are no closed surface are refused") {

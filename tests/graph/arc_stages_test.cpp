@@ -46,6 +46,7 @@ TEST_CASE("Random graphs are routed inside, and every stage keeps them there, wi
                         Case{"cup", 3100, 0, 2}, Case{"quadruped", 2500, 0, 2}}) {
     const Solid solid(sample(c.name, c.vertices, c.count));
     const VertexSlices slices = solid.no_slices();
+    std::vector<LimbTip> no_tips;
     CenteringOptions coarse;
     coarse.step = 0.03;
     coarse.rounds = 1;
@@ -76,14 +77,14 @@ TEST_CASE("Random graphs are routed inside, and every stage keeps them there, wi
       check("aiming");
       extend_ends(graph, solid.hierarchy, {});
       check("extension");
-      prune_branches(graph, solid.surface, solid.hierarchy, slices, {}, {});
+      prune_branches(graph, no_tips);
       check("pruning");
       remove_spurs(graph, solid.hierarchy);
       check("removing spurs");
       CHECK(spur_count(graph, solid.hierarchy) == 0);
       center_arcs(graph, solid.hierarchy, coarse);
       check("centring again");
-      complete_limbs(graph, solid.surface, solid.hierarchy, slices, {}, {}, coarse.step);
+      complete_limbs(graph, solid.surface, solid.hierarchy, slices, no_tips, {}, coarse.step);
       check("completion of limbs");
       subdivide(graph, 0.01);
       check("subdivision");
@@ -287,22 +288,25 @@ ArcGraph tripod_arcs(const Solid& solid, double share, const Vector3* hair = nul
   return graph;
 }
 
+std::vector<LimbTip> tripod_tips(const Solid& solid) {
+  std::vector<LimbTip> tips = find_limb_tips(solid.surface, solid.hierarchy, solid.slices(), {});
+  REQUIRE(tips.size() == 3);
+  return tips;
+}
+
 }  // namespace
 
 TEST_CASE("Pruning takes a hair and leaves the limbs") {
   const Solid solid(to_mesh(skin_graph(tripod(), 1200)));
   const Vector3 hair(0, 0.3, 0);
   ArcGraph graph = tripod_arcs(solid, 1.0, &hair);
-  CHECK(prune_branches(graph, solid.surface, solid.hierarchy, solid.slices(), {}, {}) == 1);
+  CHECK(prune_branches(graph, tripod_tips(solid)) == 1);
   CHECK(leaf_count(graph) == 3);
   CHECK(living_arcs(graph) == 3);
   CHECK_FALSE(graph.hub_alive[4]);
   CHECK(map_is_partition(graph));
-  // Whatever the thresholds, the last arc of a piece stays.
-  PruningOptions all;
-  all.significance = 100;
-  all.smallest = 1;
-  prune_branches(graph, solid.surface, solid.hierarchy, solid.slices(), {}, all);
+  // The last arc of a piece stays, whether or not it stands for a tip.
+  prune_branches(graph, {});
   CHECK(type_of(graph) == GraphType{1, 0});
   CHECK(living_arcs(graph) == 1);
 }
@@ -346,12 +350,13 @@ TEST_CASE("A hub outside goes into its own limb, however near another one is") {
 TEST_CASE("A limb without an arc gets one, and nothing is added where all have theirs") {
   const Solid solid(to_mesh(skin_graph(tripod(), 1200)));
   const VertexSlices slices = solid.slices();
+  std::vector<LimbTip> tips = tripod_tips(solid);
   ArcGraph whole = tripod_arcs(solid, 0.97);
-  CHECK(complete_limbs(whole, solid.surface, solid.hierarchy, slices, {}, {}, 0.01) == 0);
+  CHECK(complete_limbs(whole, solid.surface, solid.hierarchy, slices, tips, {}, 0.01) == 0);
   ArcGraph graph = whole;
   remove_leaf_arc(graph, 2, 0);
   dissolve_through_hubs(graph);
-  CHECK(complete_limbs(graph, solid.surface, solid.hierarchy, slices, {}, {}, 0.01) == 1);
+  CHECK(complete_limbs(graph, solid.surface, solid.hierarchy, slices, tips, {}, 0.01) == 1);
   CHECK(leaf_count(graph) == 3);
   CHECK(type_of(graph) == GraphType{1, 0});
   CHECK(arcs_meet_hubs(graph));
@@ -365,8 +370,32 @@ TEST_CASE("A limb without an arc gets one, and nothing is added where all have t
   CHECK(nearest < 0.5);
 }
 
+TEST_CASE("What no arc comes near gets an arc and a tip, in a shape with limbs") {
+  BallGraph horned = tripod();
+  horned.nodes.push_back({{0, 0, 1.5}, 0.2});
+  horned.nodes.push_back({{0, 1.2, 1.5}, 0.15});
+  horned.edges.push_back({4, 5});
+  const Solid solid(to_mesh(skin_graph(horned, 2500)));
+  ArcGraph graph = tripod_arcs(solid, 0.97);
+  std::vector<LimbTip> tips = find_limb_tips(solid.surface, solid.hierarchy, solid.slices(), {});
+  const auto is_horn = [&](const LimbTip& tip) {
+    return (solid.model(tip.position) - horned.nodes[5].position).norm() < 0.4;
+  };
+  tips.erase(std::remove_if(tips.begin(), tips.end(), is_horn), tips.end());
+  REQUIRE(tips.size() == 3);
+  ArcGraph limbless = graph;
+  std::vector<LimbTip> none;
+  CHECK(complete_limbs(limbless, solid.surface, solid.hierarchy, solid.slices(), none, {}, 0.01) == 0);
+  CHECK(complete_limbs(graph, solid.surface, solid.hierarchy, solid.slices(), tips, {}, 0.01) == 1);
+  CHECK(leaf_count(graph) == 4);
+  REQUIRE(tips.size() == 4);
+  CHECK(is_horn(tips.back()));
+  CHECK(crossings(graph, solid.hierarchy) == 0);
+  CHECK(map_is_partition(graph));
+}
+
 TEST_CASE("No place is completed twice") {
-  for (const std::string name : {"cup", "bowl", "plate", "quadruped", "octoped"}) {
+  for (const std::string name : {"plate", "quadruped", "octoped"}) {
     const Solid solid(sample(name, 3200));
     const auto middle = solid.hierarchy.first_hit(solid.surface.position[0] - 1e-6 * solid.surface.normal[0],
                                                   -solid.surface.normal[0]);
@@ -376,9 +405,10 @@ TEST_CASE("No place is completed twice") {
     graph.add_hub(solid.surface.position[0] - 0.6 * middle->distance * solid.surface.normal[0]);
     line(graph, 0, 1);
     map_to_nearest(graph, solid.surface.position);
-    PruningOptions lenient;
-    lenient.significance = 0.3;
-    complete_limbs(graph, solid.surface, solid.hierarchy, solid.slices(), {}, lenient, 0.01);
+    LimbOptions lenient;
+    lenient.slenderness = 0.2;
+    std::vector<LimbTip> tips = find_limb_tips(solid.surface, solid.hierarchy, solid.slices(), lenient);
+    complete_limbs(graph, solid.surface, solid.hierarchy, solid.slices(), tips, lenient, 0.01);
     const auto at = graph.incidence();
     std::vector<Vector3> ends;
     for (Index h = 2; h < graph.hub_count(); ++h)
@@ -400,21 +430,42 @@ TEST_CASE("A star in a ball is pruned to one arc") {
     line(graph, 0, i);
   }
   map_to_nearest(graph, solid.surface.position);
-  prune_branches(graph, solid.surface, solid.hierarchy, solid.slices(), {}, {});
+  prune_branches(graph, {});
   CHECK(living_arcs(graph) == 1);
   CHECK(map_is_partition(graph));
 }
 
-TEST_CASE("Nothing is pruned without thresholds") {
+TEST_CASE("Leaf arcs that stand for a tip are not pruned") {
   const Solid solid(sphere(100));
   Random random(6);
   for (int run = 0; run < 20; ++run) {
     ArcGraph graph = random_arc_graph(random, 0.4);
     map_to_nearest(graph, solid.surface.position);
-    PruningOptions none;
-    none.significance = none.smallest = 0;
-    CHECK(prune_branches(graph, solid.surface, solid.hierarchy, solid.no_slices(), {}, none) == 0);
+    dissolve_through_hubs(graph);
+    const detail::ArcLeaves leaves(graph, graph.incidence());
+    std::vector<LimbTip> tips(leaves.leaf.size());
+    for (std::size_t i = 0; i < tips.size(); ++i) {
+      tips[i].target = graph.hub_position[leaves.leaf[i].tip];
+      tips[i].cap = leaves.vertices[i];
+    }
+    CHECK(prune_branches(graph, tips) == 0);
   }
+}
+
+TEST_CASE("A bump on a limb does not take the arc that ends at the limb's tip") {
+  const Solid solid(to_mesh(skin_graph(tripod(), 1200)));
+  ArcGraph graph = tripod_arcs(solid, 0.97);
+  std::vector<LimbTip> tips = tripod_tips(solid);
+  LimbTip bump;  // all of its few vertices lie on the first limb's arc
+  bump.target = bump.position = solid.at({0.4, 0, 2});
+  for (Index v = 0; v < solid.surface.vertex_count(); ++v)
+    if ((solid.surface.position[v] - bump.target).norm() < 0.03) bump.cap.push_back(v);
+  REQUIRE_FALSE(bump.cap.empty());
+  tips.insert(tips.begin(), bump);
+  const detail::ArcLeaves leaves(graph, graph.incidence());
+  const std::vector<std::size_t> leaf = detail::leaves_of_tips(graph, leaves, tips);
+  CHECK(leaf[0] == detail::kNoLeaf);
+  for (std::size_t t = 1; t < tips.size(); ++t) CHECK(leaf[t] != detail::kNoLeaf);
 }
 
 TEST_CASE("No leaf ends in the ball of its joint once spurs are removed") {
@@ -448,8 +499,7 @@ TEST_CASE("Short leaf arcs are aimed at the end of their limb, and ends that rea
 TEST_CASE("A leaf arc that stands for a tip is led to its target") {
   const Solid solid(to_mesh(skin_graph(tripod(), 1200)));
   ArcGraph graph = tripod_arcs(solid, 0.5, nullptr);
-  const std::vector<LimbTip> tips = find_limb_tips(solid.surface, solid.hierarchy, solid.slices(), {});
-  REQUIRE(tips.size() == 3);
+  const std::vector<LimbTip> tips = tripod_tips(solid);
   CHECK(aim_at_tips(graph, solid.hierarchy, tips, 0.01) == 3);
   const auto at = graph.incidence();
   for (const LimbTip& tip : tips) {
@@ -493,8 +543,8 @@ TEST_CASE("Ends grow along a capsule up to the wanted distance before its tips")
 TEST_CASE("Options of the arc stages are checked") {
   const auto throws = [](auto options) { CHECK_THROWS_AS(validate(options), UsageError); };
   throws(ZipOptions{2.5});
-  throws(PruningOptions{-1, 0.01});
-  throws(PruningOptions{1, 2});
+  throws(LimbOptions{-1, 0.01});
+  throws(LimbOptions{1, 2});
   throws(ExtensionOptions{0});
   throws(ExtensionOptions{0.01, 0});
   throws(ExtensionOptions{0.01, 0.5, -1});

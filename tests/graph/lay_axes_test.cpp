@@ -73,7 +73,7 @@ TEST_CASE("What has limbs, a handle, or air in its middle keeps its arcs") {
   ArcGraph graph = crooked(block);
   LimbTip limb;
   limb.vertex = 0;
-  limb.significance.depth = 0.1;
+  limb.measures.depth = 0.1;
   CHECK(lay_axes(graph, block.surface, block.hierarchy, {limb}) == 0);
   CHECK(graph.arcs.front().alive);
   const Solid ring(torus(3, 1, 40, 20));

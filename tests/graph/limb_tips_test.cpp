@@ -15,9 +15,9 @@ using namespace mspskel::test;
 
 namespace {
 
-std::vector<LimbTip> tips_of(const Solid& solid, double significance = PruningOptions().significance) {
-  PruningOptions options;
-  options.significance = significance;
+std::vector<LimbTip> tips_of(const Solid& solid, double slenderness = LimbOptions().slenderness) {
+  LimbOptions options;
+  options.slenderness = slenderness;
   return find_limb_tips(solid.surface, solid.hierarchy, solid.slices(), options);
 }
 
@@ -34,7 +34,7 @@ TEST_CASE("Each limb of a tripod has a tip at its end") {
       const Vector3 at = solid.model(solid.surface.position[tip.vertex]);
       for (Index i = 1; i < 4; ++i)
         if ((at - limbs.nodes[i].position).norm() < 1.1 * limbs.nodes[i].radius) reached.insert(i);
-      CHECK(tip.significance.depth > 0.2);
+      CHECK(tip.measures.depth > 0.2);
       CHECK_FALSE(tip.cap.empty());
     }
     CHECK(reached.size() == 3);
@@ -52,20 +52,20 @@ TEST_CASE("A shape without limbs has the ends of its longest way, of no depth") 
   const std::vector<LimbTip> tips = tips_of(solid);
   REQUIRE(tips.size() == 2);
   for (const LimbTip& tip : tips) {
-    CHECK(tip.significance.depth == 0);
+    CHECK(tip.measures.depth == 0);
     CHECK_FALSE(tip.cap.empty());
   }
   const auto at = [&](int i) { return solid.surface.position[tips[i].vertex].normalized(); };
   CHECK(at(0).dot(at(1)) < -0.95);
 }
 
-TEST_CASE("Fewer tips are significant where more is asked") {
+TEST_CASE("Fewer tips are limbs where more is asked") {
   const Solid solid(to_mesh(skin_graph(tripod(), 1200)));
   std::size_t before = solid.surface.position.size();
-  for (const double significance : {0.01, 0.3, 1.0, 3.0, 10.0, 100.0}) {
-    const std::vector<LimbTip> tips = tips_of(solid, significance);
-    const auto limbs = static_cast<std::size_t>(std::count_if(
-        tips.begin(), tips.end(), [](const LimbTip& tip) { return tip.significance.depth > 0; }));
+  for (const double slenderness : {0.01, 0.3, 1.0, 3.0, 10.0, 100.0}) {
+    const std::vector<LimbTip> tips = tips_of(solid, slenderness);
+    const auto limbs = static_cast<std::size_t>(
+        std::count_if(tips.begin(), tips.end(), [](const LimbTip& tip) { return tip.measures.depth > 0; }));
     CHECK(limbs <= before);
     before = limbs;
   }
@@ -98,7 +98,48 @@ TEST_CASE("Pieces have tips of their own, and nothing to measure gives none") {
 }
 
 TEST_CASE("The corners of a block are no limbs") {
-  for (const LimbTip& tip : tips_of(Solid(prism(4, 1.5, 13)))) CHECK(tip.significance.depth == 0);
+  for (const LimbTip& tip : tips_of(Solid(prism(4, 1.5, 13)))) CHECK(tip.measures.depth == 0);
+}
+
+TEST_CASE("A limb's slenderness is its length over its radius, however fine the triangles are") {
+  for (const Index vertices : {800, 4000}) {
+    BallGraph star;
+    star.blend = 0;
+    star.nodes = {{{0, 0, 0}, 0.3}, {{0, 0, 3}, 0.3}, {{4, 0, 0}, 0.3}, {{-2, 0, 0}, 0.3}, {{0, 5, 0}, 0.3}};
+    star.edges = {{0, 1}, {0, 2}, {0, 3}, {0, 4}};
+    const Solid solid(to_mesh(skin_graph(star, vertices)));
+    const std::vector<LimbTip> tips = tips_of(solid);
+    REQUIRE(tips.size() == 4);
+    // One may be measured to where two of the others have met it.
+    const auto like_a_tube = std::count_if(tips.begin(), tips.end(), [&](const LimbTip& tip) {
+      const double depth = tip.measures.depth * solid.surface.frame.scale;
+      return std::abs(tip.measures.slenderness / (depth / 0.3) - 1) < 0.15;
+    });
+    CHECK(like_a_tube >= 3);
+  }
+}
+
+TEST_CASE("Small ears count on a body with limbs, and no bump of a body without") {
+  BallGraph bear;
+  bear.blend = 0.05;
+  bear.nodes = {{{0, 0, 0}, 1.0},       {{0, 0, 1.6}, 0.8},     {{3, 0, 0.5}, 0.4},
+                {{-3, 0, 0.5}, 0.4},    {{1.2, 0, -3}, 0.45},   {{-1.2, 0, -3}, 0.45},
+                {{0.62, 0, 2.3}, 0.22}, {{0.95, 0, 2.75}, 0.2}, {{-0.62, 0, 2.3}, 0.22},
+                {{-0.95, 0, 2.75}, 0.2}};
+  bear.edges = {{0, 1}, {0, 2}, {0, 3}, {0, 4}, {0, 5}, {6, 7}, {8, 9}, {1, 6}, {1, 8}};
+  const Solid solid(to_mesh(skin_graph(bear, 4000)));
+  std::set<Index> reached;
+  for (const LimbTip& tip : tips_of(solid))
+    for (const Index i : {2, 3, 4, 5, 7, 9})
+      if ((solid.model(tip.position) - bear.nodes[i].position).norm() < 0.6) reached.insert(i);
+  CHECK(reached.size() == 6);
+
+  LimbMeasures bump;
+  bump.depth = bump.half_width = 1;
+  bump.slenderness = 0.6;
+  bump.msp_ratio = 4;
+  CHECK(is_ear(bump, {}));
+  CHECK_FALSE(is_limb(bump, {}));
 }
 
 TEST_CASE("A handle without limbs has no tips: the loop is its skeleton") {
@@ -123,7 +164,7 @@ TEST_CASE("Leaves are aimed at the middle of a limb's end, inside the solid") {
     CHECK((tip.target - tip.position).norm() < 0.5 * 0.4 / solid.surface.frame.scale);
     CHECK((tip.target == tip.position ||
            (solid.hierarchy.inside(tip.target) &&
-            solid.hierarchy.distance(tip.target) > 0.04 * tip.significance.half_width)));
+            solid.hierarchy.distance(tip.target) > 0.04 * tip.measures.half_width)));
   }
 }
 

@@ -78,13 +78,13 @@ inline CoarseSurface coarsen_in_steps(const SurfaceSnapshot& input, const Extrac
 // `slices` are of the surface that the stages walk on, and so are the vertices of the tips.
 inline std::vector<LimbTip> limb_tips(const SurfaceSnapshot& input, const LimbSurface& limbs,
                                       const BoundingVolumeHierarchy& solid, const VertexSlices& slices,
-                                      const PruningOptions& pruning) {
+                                      const LimbOptions& options) {
   Execution alone;  // other stages run beside it
   alone.threads = 1;
-  if (limbs.coarse_vertex.empty()) return find_limb_tips(input, solid, slices, pruning, alone);
+  if (limbs.coarse_vertex.empty()) return find_limb_tips(input, solid, slices, options, alone);
   const SurfaceSnapshot& surface = limbs.between ? limbs.between->surface : input;
   return on_coarser_surface(
-      find_limb_tips(surface, solid, carried_over(slices, limbs.coarse_vertex), pruning, alone),
+      find_limb_tips(surface, solid, carried_over(slices, limbs.coarse_vertex), options, alone),
       limbs.coarse_vertex);
 }
 
@@ -231,7 +231,7 @@ inline ExtractResult extract_skeleton_of_snapshot(SurfaceSnapshot surface, const
   detail::run_surface_stages(working, solid, options, result, clock, [&] {
     if (!options.refinement.enabled) return;
     tips = std::async(detail::beside(options.execution), [&] {
-      return detail::limb_tips(shells, limbs, solid, result.slices, options.refinement.pruning);
+      return detail::limb_tips(shells, limbs, solid, result.slices, options.refinement.limbs);
     });
   });
   std::future<VolumeCocycles> input_cocycles;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "mspskel/base/progress.h"
-#include "mspskel/graph/limb_significance.h"
+#include "mspskel/graph/limb_measures.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/mesh/surface_snapshot.h"
 #include "mspskel/slice/vertex_slices.h"
@@ -17,22 +17,22 @@ struct LimbTip {
   // The mean of the surface at the very end, or `position` where that is not well inside the solid.
   Vector3 target = Vector3::Zero();
   // Its depth: how far the vertex is beyond where the limb meets what is farther still.
-  LeafSignificance significance;
+  LimbMeasures measures;
   std::vector<Index> cap;  // the end: the outer half of that depth, and at most 1.5 half widths
 };
 
-// The maxima of the inner distance from the middle of each component, as far as they are significant: where
-// the parts of the surface beyond a distance grow together as the distance falls, the limbs that they stand
-// for meet, so a limb is as deep as its maximum is persistent (Edelsbrunner, Letscher and Zomorodian 2002,
+// The maxima of the inner distance from the middle of each component, as far as they are limbs: where the
+// parts of the surface beyond a distance grow together as the distance falls, the limbs that they stand for
+// meet, so a limb is as deep as its maximum is persistent (Edelsbrunner, Letscher and Zomorodian 2002,
 // "Topological persistence and simplification"). Noise moves no depth by more than twice its size, and the
-// surface's triangles do not matter. A limb is deeper than 2.5 smallest features. The width of a limb is the
-// median of its slices. What reaches farthest counts where something else does, and its end is measured where
-// it meets the first other limb. A limb across the way to another one, such as an ear, is measured less than
+// surface's triangles do not matter. A limb is deeper than 2.5 smallest features, and is_limb; in a component
+// that has limbs, is_ear will do. What reaches farthest counts where something else does, and its end is
+// measured where it meets the first other limb. A limb across the way to another one is measured less than
 // its length; what goes round a handle has a maximum too, though no limb. In a component of genus 0 without
 // limbs the ends of its longest way are tips of depth 0. Cost: a segment query a vertex, O(vertices log
 // vertices).
 std::vector<LimbTip> find_limb_tips(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
-                                    const VertexSlices& slices, const PruningOptions& options,
+                                    const VertexSlices& slices, const LimbOptions& options,
                                     const Execution& execution = {});
 
 // The tips as vertices of a coarser surface, whose vertex each vertex merged into.

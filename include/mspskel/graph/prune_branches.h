@@ -1,21 +1,17 @@
-// Branch-level saturation: leaf arcs that carry no feature of the surface go, the least significant first.
+// Branch-level saturation: leaf arcs that stand for no limb of the surface go.
 #pragma once
 
-#include "mspskel/graph/center_arcs.h"
+#include "mspskel/graph/arc_graph.h"
 #include "mspskel/graph/limb_tips.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
-#include "mspskel/mesh/surface_snapshot.h"
-#include "mspskel/slice/vertex_slices.h"
 
 namespace mspskel {
 
-// Prunes until every leaf arc stands for one of the tips or is significant by itself; hubs with two arc ends
-// dissolve. `slices` are those of the surface's vertices. Returns the number of arcs removed. A component
-// keeps at least one arc or hub, loops always stay. Cost: O(leaf arcs · vertices on leaf arcs · points near
-// them).
-Index prune_branches(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
-                     const VertexSlices& slices, const std::vector<LimbTip>& tips,
-                     const PruningOptions& options, const Execution& execution = {});
+// Removes leaf arcs, the shortest first, until each of the rest stands for one of the tips; hubs with two arc
+// ends dissolve. Returns the number of arcs removed. A component keeps at least one arc or hub, loops always
+// stay. `tips` are of the vertices of the graph's map. Cost: O(vertices + tips · leaf arcs) a round; rounds
+// end when none removes an arc.
+Index prune_branches(ArcGraph& graph, const std::vector<LimbTip>& tips);
 
 // Removes leaf arcs whose tip lies in the ball of their joint. Returns their number.
 Index remove_spurs(ArcGraph& graph, const BoundingVolumeHierarchy& solid);

@@ -18,24 +18,22 @@ namespace mspskel {
 
 struct RefinementOptions {
   bool enabled = true;
-  PruningOptions pruning;
+  LimbOptions limbs;
   CenteringOptions centering;
   ExtensionOptions extension;
   ZipOptions zip;
   Index nodes = 0;             // budget of nodes, 0: none
   double joint_overlap = 1.0;  // joints closer than this many radii of the smaller ball are one, 0 to 10
-  double first_pruning = 0.3;  // share of the pruning thresholds before arcs are centred, 0 to 1
 };
 
 inline void validate(const RefinementOptions& o) {
-  validate(o.pruning);
+  validate(o.limbs);
   validate(o.centering);
   validate(o.extension);
   validate(o.zip);
   if (o.nodes < 0) throw UsageError("nodes must be at least 0");
   if (!(o.joint_overlap >= 0 && o.joint_overlap <= 10))
     throw UsageError("joint overlap must be from 0 to 10 radii");
-  if (!(o.first_pruning >= 0 && o.first_pruning <= 1)) throw UsageError("first pruning must be from 0 to 1");
 }
 
 struct RefinementCounts {
@@ -53,15 +51,14 @@ namespace detail {
 class ArcRefinement {
  public:
   ArcRefinement(ArcGraph& graph, const SurfaceSnapshot& surface, const SurfaceSnapshot& input,
-                const BoundingVolumeHierarchy& solid, const VertexSlices& slices,
-                const std::vector<LimbTip>& tips, const RefinementOptions& options,
-                const Execution& execution)
+                const BoundingVolumeHierarchy& solid, const VertexSlices& slices, std::vector<LimbTip> tips,
+                const RefinementOptions& options, const Execution& execution)
       : graph_(graph),
         surface_(surface),
         input_(input),
         solid_(solid),
         slices_(slices),
-        tips_(tips),
+        tips_(std::move(tips)),
         options_(options),
         execution_(execution),
         type_(homotopy_type(graph)),
@@ -76,15 +73,14 @@ class ArcRefinement {
   }
 
   RefinementCounts run() {
-    counts_.axes = lay_axes(graph_, surface_, solid_, tips_);
-    keep_type("laying of axes");
+    lay();
     route();
     aim();
-    prune(options_.first_pruning);  // hairs would pull on the arcs that they leave
+    prune();  // hairs would pull on the arcs that they leave
     for (int pass = 0; pass < 2; ++pass) {
       center(draft_);
       zip();
-      prune(1.0);
+      prune();
     }
     aim();
     complete();
@@ -92,9 +88,11 @@ class ArcRefinement {
     zip();
     extend();
     center(draft_);
-    prune(1.0);
+    prune();
     center(options_.centering);
     if (drop_spurs() > 0) center(touch_up_);
+    aim_strays();
+    lay();  // straight again: in a block every wall is as near, and centring goes where the noise leads
     subdivide(graph_, 1.25 * options_.centering.step);  // rounds of centring stretch some edges
     return counts_;
   }
@@ -126,11 +124,18 @@ class ArcRefinement {
     aim_at_tips(graph_, solid_, tips_, options_.centering.step);
     keep_type("aiming of ends");
   }
-  void prune(double share) {
-    PruningOptions pruning = options_.pruning;
-    pruning.significance *= share;
-    pruning.smallest *= share;
-    counts_.pruned += prune_branches(graph_, surface_, solid_, slices_, tips_, pruning, execution_);
+  // In fins and wide ends centring draws a leaf back into the body, time after time.
+  void aim_strays() {
+    constexpr double kSlack = 1.0;
+    aim_at_tips(graph_, solid_, tips_, options_.centering.step, kSlack);
+    keep_type("aiming of strays");
+  }
+  void lay() {
+    counts_.axes = lay_axes(graph_, surface_, solid_, tips_);
+    keep_type("laying of axes");
+  }
+  void prune() {
+    counts_.pruned += prune_branches(graph_, tips_);
     keep_type("pruning");
     counts_.joints_merged += merge_joints(graph_, solid_, options_.joint_overlap);
     dissolve_through_hubs(graph_);
@@ -145,7 +150,7 @@ class ArcRefinement {
     keep_type("zipping");
   }
   void complete() {
-    counts_.completed = complete_limbs(graph_, surface_, solid_, slices_, tips_, options_.pruning,
+    counts_.completed = complete_limbs(graph_, surface_, solid_, slices_, tips_, options_.limbs,
                                        options_.centering.step, inner_, execution_);
     keep_type("completion of limbs");
   }
@@ -165,7 +170,7 @@ class ArcRefinement {
   const SurfaceSnapshot& input_;
   const BoundingVolumeHierarchy& solid_;
   const VertexSlices& slices_;
-  const std::vector<LimbTip>& tips_;
+  std::vector<LimbTip> tips_;  // more as limbs are completed
   const RefinementOptions& options_;
   const Execution& execution_;
   const ArcGraphType type_;
@@ -182,10 +187,11 @@ class ArcRefinement {
 // Cancelled, and NoSkeletonError if a step broke that promise, which would be a bug.
 inline RefinementCounts refine_arcs(ArcGraph& graph, const SurfaceSnapshot& surface,
                                     const SurfaceSnapshot& input, const BoundingVolumeHierarchy& solid,
-                                    const VertexSlices& slices, const std::vector<LimbTip>& tips,
+                                    const VertexSlices& slices, std::vector<LimbTip> tips,
                                     const RefinementOptions& options, const Execution& execution = {}) {
   validate(options);
-  return detail::ArcRefinement(graph, surface, input, solid, slices, tips, options, execution).run();
+  return detail::ArcRefinement(graph, surface, input, solid, slices, std::move(tips), options, execution)
+      .run();
 }
 
 }  // namespace mspskel

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "mspskel/graph/detail/arc_leaves.h"
+#include "mspskel/graph/detail/arc_sections.h"
 #include "mspskel/graph/extend_ends.h"
 
 namespace mspskel {
@@ -77,54 +79,59 @@ inline bool lead_to_target(std::vector<Vector3>& points, const Vector3& target, 
   return points != before;
 }
 
+// Gives a leaf arc the points from its joint to its tip.
+inline void set_leaf_points(ArcGraph& graph, const LeafArc& leaf, std::vector<Vector3> points) {
+  Arc& arc = graph.arcs[leaf.arc];
+  graph.hub_position[leaf.tip] = points.back();
+  if (arc.hub[1] == leaf.joint) std::reverse(points.begin(), points.end());
+  arc.points = std::move(points);
+}
+
+inline std::vector<Vector3> leaf_points(const ArcGraph& graph, const LeafArc& leaf) {
+  const Arc& arc = graph.arcs[leaf.arc];
+  return points_from(arc, arc.hub[1] == leaf.joint ? 1 : 0);
+}
+
 }  // namespace detail
 
 inline Index aim_ends(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
                       double step, const Execution& execution) {
-  const auto at = graph.incidence();
   const detail::ArcBalls balls(graph, solid, execution);
-  const detail::ArcParts parts(graph, at);
+  const detail::ArcLeaves leaves(graph, graph.incidence());
   Index aimed = 0;
-  for (const auto& [a, joint] : parts.leaves) {
-    Arc& arc = graph.arcs[a];
-    const bool reversed = arc.hub[1] == joint;
-    const Index tip = arc.hub[reversed ? 0 : 1];
-    const detail::Ball& hub = balls.hub[joint];
-    std::vector<Vector3> points = points_from(arc, reversed ? 1 : 0);
+  for (std::size_t i = 0; i < leaves.leaf.size(); ++i) {
+    const detail::LeafArc& leaf = leaves.leaf[i];
+    const detail::Ball& hub = balls.hub[leaf.joint];
+    std::vector<Vector3> points = detail::leaf_points(graph, leaf);
     const double half_width = detail::section_size(
         solid, points.back(), points.back() - detail::point_before_end(points, 3 * step))[0];
     // The corners of a flat end are about a half width off, whichever way the arc points.
-    const Index v =
-        detail::most_uncovered(surface, balls, parts.vertices[a], a, tip, std::max(step, 0.75 * half_width));
+    const Index v = detail::most_uncovered(surface, balls, leaves.vertices[i], leaf.arc, leaf.tip,
+                                           std::max(step, 0.75 * half_width));
     if (v == kNone) continue;
-    const bool within = std::all_of(arc.points.begin(), arc.points.end(),
+    const bool within = std::all_of(points.begin(), points.end(),
                                     [&](const Vector3& x) { return (x - hub.centre).norm() < hub.radius; });
     if (!detail::aim_arc(points, surface.position[v], within, solid, step)) continue;
-    graph.hub_position[tip] = points.back();
-    if (reversed) std::reverse(points.begin(), points.end());
-    arc.points = std::move(points);
+    detail::set_leaf_points(graph, leaf, std::move(points));
     ++aimed;
   }
   return aimed;
 }
 
 inline Index aim_at_tips(ArcGraph& graph, const BoundingVolumeHierarchy& solid,
-                         const std::vector<LimbTip>& tips, double step) {
-  const auto at = graph.incidence();
-  const detail::ArcParts parts(graph, at);
-  const std::vector<std::size_t> leaf_of_tip = detail::leaves_of_tips(graph, parts, tips);
+                         const std::vector<LimbTip>& tips, double step, double slack) {
+  const detail::ArcLeaves leaves(graph, graph.incidence());
+  const std::vector<std::size_t> leaf_of_tip = detail::leaves_of_tips(graph, leaves, tips);
   Index aimed = 0;
   for (std::size_t t = 0; t < tips.size(); ++t) {
-    if (leaf_of_tip[t] == detail::kNoLeaf || !(tips[t].significance.depth > 0)) continue;
-    const auto [a, joint] = parts.leaves[leaf_of_tip[t]];
-    Arc& arc = graph.arcs[a];
-    const bool reversed = arc.hub[1] == joint;
-    std::vector<Vector3> points = points_from(arc, reversed ? 1 : 0);
+    if (leaf_of_tip[t] == detail::kNoLeaf || !(tips[t].measures.depth > 0)) continue;
+    const detail::LeafArc& leaf = leaves.leaf[leaf_of_tip[t]];
+    std::vector<Vector3> points = detail::leaf_points(graph, leaf);
+    const double off = (points.back() - tips[t].target).norm();
+    if (slack > 0 && off <= slack * tips[t].measures.half_width) continue;
     if (!detail::lead_to_target(points, tips[t].target, tips[t].target != tips[t].position, solid, step))
       continue;
-    graph.hub_position[arc.hub[reversed ? 0 : 1]] = points.back();
-    if (reversed) std::reverse(points.begin(), points.end());
-    arc.points = std::move(points);
+    detail::set_leaf_points(graph, leaf, std::move(points));
     ++aimed;
   }
   return aimed;

@@ -49,6 +49,21 @@ class BallChain {
     return best;
   }
 
+  // As far as x lies beyond one of the balls by less than `distance`, that becomes the least distance, and
+  // `radius` that ball's.
+  void find_nearest(const Vector3& x, double& distance, double& radius) const {
+    for (std::size_t r = 0; r < run_.size(); ++r) {
+      if (run_[r].distance_outside(x) >= distance) continue;
+      const std::size_t last = std::min((r + 1) * kRun, balls_.size());
+      for (std::size_t i = r * kRun; i < last; ++i) {
+        const double outside = balls_[i].distance_outside(x);
+        if (outside >= distance) continue;
+        distance = outside;
+        radius = balls_[i].radius;
+      }
+    }
+  }
+
  private:
   static constexpr std::size_t kRun = 12;
   std::vector<Ball> balls_;

@@ -3,11 +3,17 @@
 #include <algorithm>
 #include <limits>
 
+#include "mspskel/graph/detail/arc_leaves.h"
+#include "mspskel/graph/detail/arc_sections.h"
+
 namespace mspskel {
 namespace detail {
 
-// The collapse saw no limb here, so the evidence has to be better than for an arc that it made.
-inline constexpr double kCaution = 1.25;
+// What no arc comes near protrudes by more than this many smallest features.
+inline constexpr double kLeastProtrusion = 3.5;
+
+// A sheet lies far outside all balls whatever the arcs, so nothing there tells a limb.
+inline constexpr double kMostUncovered = 0.15;  // share of the area
 
 // The rim of a tube's flat end lies up to 0.62 radii outside the balls on its axis, a cube's corner 0.73
 // outside the ball in it; neither is a limb.
@@ -26,7 +32,7 @@ struct GraphPoint {
 class LimbCompletion {
  public:
   LimbCompletion(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
-                 const VertexSlices& slices, const std::vector<LimbTip>& tips, const PruningOptions& options,
+                 const VertexSlices& slices, std::vector<LimbTip>& tips, const LimbOptions& options,
                  double step, InnerGraph& inner, const Execution& execution)
       : graph_(graph),
         surface_(surface),
@@ -38,32 +44,43 @@ class LimbCompletion {
         inner_(inner) {
     const ArcBalls balls(graph, solid, execution);
     outside_.assign(surface.position.size(), 0.0);
+    std::vector<std::uint8_t> covered(surface.position.size(), 1);
     parallel_for(
         surface.vertex_count(), "arcs", execution, [] { return 0; },
         [&](Index v, int) {
           const Index own = graph.arc_of_vertex[v];
           if (own == kNone && graph.hub_of_vertex[v] == kNone) return;
           const Vector3& x = surface.position[v];
-          double outside = std::numeric_limits<double>::infinity();
-          for (Index h = 0; h < graph.hub_count(); ++h)
-            if (graph.hub_alive[h]) outside = std::min(outside, balls.hub[h].distance_outside(x));
+          double outside = std::numeric_limits<double>::infinity(), radius = 0;
+          for (Index h = 0; h < graph.hub_count(); ++h) {
+            if (!graph.hub_alive[h] || balls.hub[h].distance_outside(x) >= outside) continue;
+            outside = balls.hub[h].distance_outside(x);
+            radius = balls.hub[h].radius;
+          }
           // The vertex's own arc first: few balls of others are nearer.
-          if (own != kNone) outside = balls.arc[own].distance_outside(x, kNever, outside);
-          for (const BallChain& chain : balls.arc) outside = chain.distance_outside(x, kNever, outside);
+          if (own != kNone) balls.arc[own].find_nearest(x, outside, radius);
+          for (const BallChain& chain : balls.arc) chain.find_nearest(x, outside, radius);
           outside_[v] = outside;
+          covered[v] = outside <= radius;
         });
     find_components();
+    find_searched(covered);
   }
 
   Index run() {
     constexpr int kTries = 64;
     Index added = reach_tips();
+    for (std::size_t v = 0; v < outside_.size(); ++v)
+      if (!searched_[surface_.component[v]]) outside_[v] = std::min(outside_[v], 0.0);
     for (int i = 0; i < kTries; ++i) {
       const auto farthest = std::max_element(outside_.begin(), outside_.end());
-      if (!(*farthest > std::max(options_.smallest, step_))) break;
+      if (!(*farthest > std::max(kLeastProtrusion * options_.smallest, step_))) break;
       const Index v = static_cast<Index>(farthest - outside_.begin());
       const double before = *farthest;
-      if (try_limb(v, false)) ++added;
+      if (try_limb(v, false)) {
+        tips_.push_back(new_tip(v, before));
+        ++added;
+      }
       // Tried once, whether or not: an arc may end far from what it was led to.
       if (outside_[v] > 0.5 * before) dismiss(v);
     }
@@ -76,10 +93,10 @@ class LimbCompletion {
   Index reach_tips() {
     const auto at = graph_.incidence();
     std::vector<std::pair<double, Index>> bare;
-    const std::vector<std::size_t> leaf = leaves_of_tips(graph_, ArcParts(graph_, at), tips_);
+    const std::vector<std::size_t> leaf = leaves_of_tips(graph_, ArcLeaves(graph_, at), tips_);
     for (std::size_t i = 0; i < tips_.size(); ++i)
-      if (leaf[i] == kNoLeaf && tips_[i].significance.depth > 0)
-        bare.push_back({-tips_[i].significance.depth, static_cast<Index>(i)});
+      if (leaf[i] == kNoLeaf && tips_[i].measures.depth > 0)
+        bare.push_back({-tips_[i].measures.depth, static_cast<Index>(i)});
     std::sort(bare.begin(), bare.end());
     Index added = 0;
     for (const auto& [depth, i] : bare)
@@ -88,6 +105,34 @@ class LimbCompletion {
   }
 
   static constexpr double kNever = -std::numeric_limits<double>::infinity();
+
+  // Which components of the surface are searched for more limbs than the tips tell.
+  void find_searched(const std::vector<std::uint8_t>& covered) {
+    const auto count = static_cast<std::size_t>(surface_.component_count);
+    std::vector<double> whole(count, 0.0), bare(count, 0.0);
+    for (std::size_t v = 0; v < covered.size(); ++v) {
+      if (surface_.vertex_halfedge[v] == kNone) continue;
+      whole[surface_.component[v]] += surface_.vertex_area[v];
+      if (!covered[v]) bare[surface_.component[v]] += surface_.vertex_area[v];
+    }
+    searched_.assign(count, false);
+    for (const LimbTip& tip : tips_)
+      if (tip.measures.depth > 0) searched_[surface_.component[tip.vertex]] = true;
+    for (std::size_t c = 0; c < count; ++c)
+      if (bare[c] > kMostUncovered * whole[c]) searched_[c] = false;
+  }
+
+  LimbTip new_tip(Index v, double depth) const {
+    LimbTip tip;
+    tip.vertex = v;
+    tip.position = tip.target = surface_.position[v];
+    tip.measures.depth = depth;
+    for (Index w = 0; w < surface_.vertex_count(); ++w)
+      if (surface_.component[w] == surface_.component[v] &&
+          (surface_.position[w] - surface_.position[v]).norm() < 0.5 * depth)
+        tip.cap.push_back(w);
+    return tip;
+  }
 
   void cover(const BallChain& balls) {
     for (std::size_t v = 0; v < outside_.size(); ++v)
@@ -179,7 +224,7 @@ class LimbCompletion {
     alone.add_hub(way.back());
     alone.arcs.push_back({{0, 1}, way, true});
     CenteringOptions few;
-    few.step = 2 * step_;
+    few.step = step_;
     few.rounds = 2;
     few.rays = 16;
     Execution one_thread;
@@ -195,24 +240,28 @@ class LimbCompletion {
 
   bool deserves_arc(const std::vector<Vector3>& way, Index v, double share) const {
     const Ball ball{way.front(), solid_.distance(way.front())};
-    return outside_[v] >= share * kCorner * ball.radius &&
-           significance(way, ball, outside_[v]) >= share * kCaution * options_.significance;
+    LimbOptions options = options_;
+    options.slenderness *= share;
+    return outside_[v] >= share * kCorner * ball.radius && is_missed_limb(measure(way, ball, v), options);
   }
 
-  double significance(const std::vector<Vector3>& way, const Ball& ball, double depth) const {
-    Arc arc;
-    arc.points = way;
-    LeafSignificance s;
-    s.depth = depth;
-    const auto [width, perimeter] = arc_sections(arc, ball, solid_);
-    s.half_width = width;
+  LimbMeasures measure(const std::vector<Vector3>& way, const Ball& ball, Index v) const {
+    LimbMeasures m;
+    m.depth = outside_[v];
+    // The part of the way that lies in the limb, or the last three of its edges.
+    std::size_t first = 0;
+    while (first + 4 < way.size() + 1 && (way[first + 1] - surface_.position[v]).norm() > 1.2 * m.depth)
+      ++first;
+    const std::vector<Vector3> own(way.begin() + static_cast<std::ptrdiff_t>(first), way.end());
+    const auto [width, perimeter] = median_section(own, ball, solid_);
+    m.half_width = width;
     std::vector<double> parents;
-    for (Index v = 0; v < surface_.vertex_count(); ++v)
-      if (slices_.valid[v] && outside_[v] < 0.1 * depth &&
-          (surface_.position[v] - ball.centre).norm() < 2 * std::max(ball.radius, width))
-        parents.push_back(slices_.perimeter[v]);
-    if (perimeter > 0) s.msp_ratio = std::max(1.0, value_at_rank(std::move(parents), 0.5) / perimeter);
-    return s.value();
+    for (Index w = 0; w < surface_.vertex_count(); ++w)
+      if (slices_.valid[w] && outside_[w] < 0.1 * m.depth &&
+          (surface_.position[w] - ball.centre).norm() < 2 * std::max(ball.radius, width))
+        parents.push_back(slices_.perimeter[w]);
+    if (perimeter > 0) m.msp_ratio = std::max(1.0, value_at_rank(std::move(parents), 0.5) / perimeter);
+    return m;
   }
 
   Index hub_at(const GraphPoint& p) {
@@ -252,11 +301,12 @@ class LimbCompletion {
   const SurfaceSnapshot& surface_;
   const BoundingVolumeHierarchy& solid_;
   const VertexSlices& slices_;
-  const std::vector<LimbTip>& tips_;
-  const PruningOptions& options_;
+  std::vector<LimbTip>& tips_;
+  const LimbOptions& options_;
   double step_;
   InnerGraph& inner_;
   std::vector<Index> hub_component_;
+  std::vector<bool> searched_;   // per component of the surface
   std::vector<double> outside_;  // per vertex: distance beyond all balls, at most 0 where done with
 };
 
@@ -264,14 +314,14 @@ class LimbCompletion {
 
 inline Index complete_limbs(ArcGraph& graph, const SurfaceSnapshot& surface,
                             const BoundingVolumeHierarchy& solid, const VertexSlices& slices,
-                            const std::vector<LimbTip>& tips, const PruningOptions& options, double step,
+                            std::vector<LimbTip>& tips, const LimbOptions& options, double step,
                             detail::InnerGraph& inner, const Execution& execution) {
   return detail::LimbCompletion(graph, surface, solid, slices, tips, options, step, inner, execution).run();
 }
 
 inline Index complete_limbs(ArcGraph& graph, const SurfaceSnapshot& surface,
                             const BoundingVolumeHierarchy& solid, const VertexSlices& slices,
-                            const std::vector<LimbTip>& tips, const PruningOptions& options, double step) {
+                            std::vector<LimbTip>& tips, const LimbOptions& options, double step) {
   detail::InnerGraph inner(surface, solid);
   return complete_limbs(graph, surface, solid, slices, tips, options, step, inner);
 }

@@ -67,7 +67,7 @@ inline Index lay_axes(ArcGraph& graph, const SurfaceSnapshot& surface, const Bou
                       const std::vector<LimbTip>& tips) {
   std::vector<bool> limbed(static_cast<std::size_t>(surface.component_count), false);
   for (const LimbTip& tip : tips)
-    if (tip.significance.depth > 0) limbed[surface.component[tip.vertex]] = true;
+    if (tip.measures.depth > 0) limbed[surface.component[tip.vertex]] = true;
   const std::vector<Index> twice_euler = twice_euler_characteristics(surface);
   const std::vector<detail::SolidMoments> moments = detail::solid_moments(surface);
   const std::vector<Index> component = detail::hub_components(graph, surface);

@@ -13,10 +13,13 @@ namespace detail {
 // A depth from the middle of the shape is measured between vertices of the surface; in smallest features.
 inline constexpr double kLeastTipDepth = 2.5;
 
+// So much of a limb's end, in half widths, has its mean in the middle of it, on flat ends as well.
+inline constexpr double kEnd = 0.75;
+
 // The components of the surface beyond a distance that falls, and the limbs found when they meet.
 class LimbTipSearch {
  public:
-  LimbTipSearch(const SurfaceSnapshot& surface, const VertexSlices& slices, const PruningOptions& options,
+  LimbTipSearch(const SurfaceSnapshot& surface, const VertexSlices& slices, const LimbOptions& options,
                 const std::vector<double>& distance)
       : surface_(surface),
         slices_(slices),
@@ -27,23 +30,26 @@ class LimbTipSearch {
         walked_(surface.position.size(), 0) {}
 
   std::vector<LimbTip> run() {
-    std::vector<LimbTip> tips;
     std::vector<Index> order;
     for (Index v = 0; v < surface_.vertex_count(); ++v)
       if (std::isfinite(distance_[v])) order.push_back(v);
     std::sort(order.begin(), order.end(), [&](Index a, Index b) {
       return distance_[a] != distance_[b] ? distance_[a] > distance_[b] : a < b;
     });
-    for (const Index v : order) add(v, tips);
+    for (const Index v : order) add(v);
     for (const Index v : order)
-      if (parent_[v] == v && part_[v].first) tips.push_back(std::move(*part_[v].first));
-    return tips;
+      if (parent_[v] == v && part_[v].limb) limbs_.push_back(std::move(*part_[v].limb));
+    std::vector<bool> limbed(static_cast<std::size_t>(surface_.component_count), false);
+    for (const LimbTip& tip : limbs_) limbed[surface_.component[tip.vertex]] = true;
+    for (LimbTip& tip : ears_)
+      if (limbed[surface_.component[tip.vertex]]) limbs_.push_back(std::move(tip));
+    return std::move(limbs_);
   }
 
  private:
   struct Part {
     Index top = kNone;
-    std::optional<LimbTip> first;  // its top, measured where it first met a limb
+    std::optional<LimbTip> limb, ear;  // its top, measured where it first met one
     std::vector<Index> vertices;
   };
 
@@ -52,7 +58,7 @@ class LimbTipSearch {
     return v;
   }
 
-  void add(Index v, std::vector<LimbTip>& tips) {
+  void add(Index v) {
     parent_[v] = v;
     part_[v].top = v;
     std::vector<Index> roots;
@@ -63,23 +69,28 @@ class LimbTipSearch {
     });
     std::sort(roots.begin(), roots.end(),
               [&](Index a, Index b) { return distance_[part_[a].top] > distance_[part_[b].top]; });
-    for (std::size_t i = 1; i < roots.size(); ++i) meet(roots[0], roots[i], v, tips);
+    for (std::size_t i = 1; i < roots.size(); ++i) meet(roots[0], roots[i], v);
     const Index into = roots.empty() ? v : roots[0];
     part_[into].vertices.push_back(v);
     parent_[v] = into;
   }
 
-  // At the saddle v the part with the higher top takes the other one.
-  void meet(Index high, Index low, Index v, std::vector<LimbTip>& tips) {
+  // At the saddle v the part with the higher top takes the other one. A part in which limbs have met is one.
+  void meet(Index high, Index low, Index v) {
     Part &a = part_[high], &b = part_[low];
-    if (std::optional<LimbTip> tip = measure(b, v); tip && is_limb(*tip)) {
-      // Of a part in which limbs have met, only what was its own before is its end.
-      if (b.first) {
-        tip->cap = b.first->cap;
-        tip->target = b.first->target;
+    if (std::optional<LimbTip> tip = measure(b, v)) {
+      if (b.limb || is_limb(tip->measures, options_)) {
+        // Of such a part only what was its top's own before is its end.
+        if (b.limb) {
+          tip->cap = b.limb->cap;
+          tip->target = b.limb->target;
+        }
+        limbs_.push_back(std::move(*tip));
+        if (!a.limb) a.limb = measure(a, v);
+      } else if (b.ear || is_ear(tip->measures, options_)) {
+        ears_.push_back(b.ear ? std::move(*b.ear) : std::move(*tip));
+        if (!a.limb && !a.ear) a.ear = measure(a, v);
       }
-      tips.push_back(std::move(*tip));
-      if (!a.first) a.first = measure(a, v);
     }
     if (b.vertices.size() > a.vertices.size()) std::swap(a.vertices, b.vertices);
     a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
@@ -87,24 +98,26 @@ class LimbTipSearch {
     parent_[low] = high;
   }
 
-  bool is_limb(const LimbTip& tip) const { return tip.significance.value() >= options_.significance; }
-
   // The part as a limb that ends at the saddle; nothing if it has no slices or is too shallow.
   std::optional<LimbTip> measure(const Part& part, Index saddle) {
     LimbTip tip;
     tip.vertex = part.top;
-    LeafSignificance& s = tip.significance;
-    s.depth = distance_[part.top] - distance_[saddle];
-    if (!(s.depth > kLeastTipDepth * options_.smallest)) return std::nullopt;
+    LimbMeasures& m = tip.measures;
+    m.depth = distance_[part.top] - distance_[saddle];
+    if (!(m.depth > kLeastTipDepth * options_.smallest)) return std::nullopt;
     std::vector<double> perimeters, widths;
+    double whole = 0;
     for (const Index v : part.vertices) {
+      whole += surface_.vertex_area[v];
       if (!slices_.valid[v]) continue;
       perimeters.push_back(slices_.perimeter[v]);
       widths.push_back(slices_.half_width[v]);
     }
-    s.half_width = value_at_rank(std::move(widths), 0.5);
-    const double cap = 0.5 * std::min(s.depth, 3 * s.half_width);
-    const double end = std::min(0.5 * s.depth, 0.25 * s.half_width);
+    if (!(whole > 0)) return std::nullopt;
+    m.half_width = value_at_rank(std::move(widths), 0.5);
+    m.slenderness = 2 * kPi * m.depth * m.depth / whole;
+    const double cap = std::min(0.5 * m.depth, 1.5 * m.half_width);
+    const double end = std::min(0.5 * m.depth, kEnd * m.half_width);
     double area = 0;
     for (const Index v : part.vertices) {
       const double behind = distance_[part.top] - distance_[v];
@@ -117,7 +130,7 @@ class LimbTipSearch {
     tip.target /= area;
     const double own = value_at_rank(std::move(perimeters), 0.5);
     if (!(own > 0)) return std::nullopt;
-    s.msp_ratio = std::max(1.0, parent_perimeter(part, saddle, 2 * s.half_width) / own);
+    m.msp_ratio = std::max(1.0, parent_perimeter(part, saddle, 2 * m.half_width) / own);
     return tip;
   }
 
@@ -143,12 +156,13 @@ class LimbTipSearch {
 
   const SurfaceSnapshot& surface_;
   const VertexSlices& slices_;
-  const PruningOptions& options_;
+  const LimbOptions& options_;
   const std::vector<double>& distance_;
   std::vector<Index> parent_;  // kNone: not yet beyond
   std::vector<Part> part_;     // of each root
   std::vector<Index> walked_;  // the last walk that came by
   Index walk_ = 0;
+  std::vector<LimbTip> limbs_, ears_;
 };
 
 // The vertex of the greatest finite value in each component; kNone where there is none.
@@ -269,7 +283,7 @@ inline std::vector<std::optional<Vector3>> middle_of_components(const SurfaceSna
 
 inline std::vector<LimbTip> find_limb_tips(const SurfaceSnapshot& surface,
                                            const BoundingVolumeHierarchy& solid, const VertexSlices& slices,
-                                           const PruningOptions& options, const Execution& execution) {
+                                           const LimbOptions& options, const Execution& execution) {
   const SurfaceWays ways(surface);
   const auto middle = detail::middle_of_components(surface, ways, solid, slices);
   const std::vector<double> distance = inner_distances(surface, ways, solid, middle, execution);
@@ -277,8 +291,7 @@ inline std::vector<LimbTip> find_limb_tips(const SurfaceSnapshot& surface,
   // Where few vertices make the end, their mean lies on the surface but for rounding.
   constexpr double kLeastClearance = 0.05;  // half widths
   for (LimbTip& tip : tips)
-    if (!solid.inside(tip.target) ||
-        solid.distance(tip.target) < kLeastClearance * tip.significance.half_width)
+    if (!solid.inside(tip.target) || solid.distance(tip.target) < kLeastClearance * tip.measures.half_width)
       tip.target = surface.position[tip.vertex];
   detail::add_longest_ways(surface, ways, distance, tips);
   for (LimbTip& tip : tips) tip.position = surface.position[tip.vertex];

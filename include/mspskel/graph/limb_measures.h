@@ -1,0 +1,68 @@
+// When a part of the shape is a limb that deserves an arc.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "mspskel/base/error.h"
+
+namespace mspskel {
+
+struct LimbOptions {
+  // The least slenderness of a limb, 0 to 100; larger keeps fewer features. It is 1 for the corner of a cube
+  // as its centre sees it.
+  double slenderness = 1.25;
+  // As a share of the model's extent, 0 to 1. Limbs are some times deeper; below it everything is noise.
+  double smallest = 0.01;
+};
+
+inline void validate(const LimbOptions& o) {
+  if (!(o.slenderness >= 0 && o.slenderness <= 100))
+    throw UsageError("slenderness of limbs must be from 0 to 100");
+  if (!(o.smallest >= 0 && o.smallest <= 1))
+    throw UsageError("smallest feature must be from 0 to 1 of the extent");
+}
+
+// What a limb is judged by: how far it protrudes for its surface, for its width, and how much smaller its
+// slices are than those of the part that it leaves (the saturation of Eq. 4.5 lifted from nodes to branches).
+struct LimbMeasures {
+  double depth = 0.0;       // how far the limb's surface reaches beyond the rest
+  double half_width = 0.0;  // median of its slices
+  double msp_ratio = 1.0;   // MSP of the part that it leaves / MSP of the limb, at least 1
+  // 2π depth² / area: length over radius of a tube, 2 / sin of the half angle of a cone. An area moves little
+  // under noise and with the triangles, so this decides.
+  double slenderness = 0.0;
+};
+
+// A limb by its slenderness alone.
+inline bool is_limb(const LimbMeasures& m, const LimbOptions& o) {
+  return m.slenderness >= o.slenderness && m.depth >= 1.4 * m.half_width;
+}
+
+// An ear or a horn: a bump rather than a limb, but much smaller than what carries it. Only in a shape that
+// has limbs: measured so, the corners of a block are ears as well.
+inline bool is_ear(const LimbMeasures& m, const LimbOptions& o) {
+  return m.slenderness >= 0.35 * o.slenderness && m.slenderness * m.msp_ratio >= 1.28 * o.slenderness &&
+         m.depth >= 0.9 * m.half_width;
+}
+
+// A protrusion that no arc comes near, measured without its area: the longer, the less has to tell it from
+// the rest.
+inline bool is_missed_limb(const LimbMeasures& m, const LimbOptions& o) {
+  constexpr double kMost = 6.0;  // more says nothing: the smaller the slices, the rougher
+  return m.half_width > 0 && std::min(kMost, m.depth / m.half_width * std::min(m.msp_ratio, 9.0)) * m.depth >=
+                                 25 * o.slenderness * o.smallest;
+}
+
+namespace detail {
+
+// The value at the given share of the sorted list; 0 if that is empty.
+inline double value_at_rank(std::vector<double> values, double share) {
+  if (values.empty()) return 0.0;
+  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + at, values.end());
+  return values[static_cast<std::size_t>(at)];
+}
+
+}  // namespace detail
+}  // namespace mspskel
