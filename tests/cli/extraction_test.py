@@ -3,10 +3,32 @@ import csv
 import json
 import os
 import pty
+import re
 import subprocess
 import unittest
 
 from program import PROGRAM, SOURCE, ProgramTest
+
+
+class Environment(ProgramTest):
+    def shown(self, **environment):
+        """What OpenMP says of its settings, nothing where it does not say."""
+        mesh = self.sample()
+        result = subprocess.run([PROGRAM, mesh, "-", "-t", "2"], capture_output=True, cwd=self.folder,
+                                env={"OMP_DISPLAY_ENV": "true", **environment})
+        self.assertEqual(result.returncode, 0)
+        return re.findall(rb"OMP_WAIT_POLICY\s*=\s*'(\w+)'", result.stderr)
+
+    def test_waiting_threads_sleep_unless_told_otherwise(self):
+        if not self.shown(OMP_WAIT_POLICY="active"):
+            self.skipTest("this OpenMP does not show its settings")
+        self.assertEqual(self.shown(OMP_WAIT_POLICY="active"), [b"ACTIVE"])
+        self.assertEqual(self.shown(LANG="C"), [b"PASSIVE"])
+
+    def test_empty_environment(self):
+        mesh = self.sample()
+        result = subprocess.run([PROGRAM, mesh, "a.skel"], capture_output=True, cwd=self.folder, env={})
+        self.assertEqual((result.returncode, result.stderr), (0, b""))
 
 
 class Outputs(ProgramTest):

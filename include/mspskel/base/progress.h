@@ -1,4 +1,4 @@
-// Progress reports and cancellation, and the parallel loop that honours both.
+// Progress reports and cancellation, and what runs on several threads and honours both.
 #pragma once
 
 #ifdef _OPENMP
@@ -85,6 +85,35 @@ void parallel_for(Index count, const char* stage, const Execution& execution, Ma
     }
   }
   if (failure) std::rethrow_exception(failure);
+}
+
+// Calls both, where there are two threads at the same time: `here` on the calling thread, so it may report
+// progress, `there` on another. They must not write what the other one touches. Parallel loops in them run on
+// one thread. Of two exceptions that of `here` is thrown. (Not std::async: a new thread often starts on the
+// processor that the calling one runs on, and stays there for milliseconds.)
+template <class Here, class There>
+void run_beside(const Execution& execution, Here here, There there) {
+  std::exception_ptr failure, other_failure;
+  const auto guarded = [](auto& work, std::exception_ptr& thrown) {
+    try {
+      work();
+    } catch (...) {
+      thrown = std::current_exception();
+    }
+  };
+#ifdef _OPENMP
+#pragma omp parallel num_threads(std::min(2, thread_count(execution)))
+  {
+    if (omp_get_thread_num() == 0) guarded(here, failure);
+    if (omp_get_thread_num() == omp_get_num_threads() - 1) guarded(there, other_failure);
+  }
+#else
+  (void)execution;
+  guarded(here, failure);
+  guarded(there, other_failure);
+#endif
+  if (failure) std::rethrow_exception(failure);
+  if (other_failure) std::rethrow_exception(other_failure);
 }
 
 }  // namespace mspskel

@@ -12,6 +12,10 @@ namespace mspskel {
 // public structs.
 using Vector3 = Eigen::Vector3d;
 
+// Coordinates in a plane. Not aligned, so they are safe in public structs whatever flags their users compile
+// with.
+using Vector2 = Eigen::Matrix<double, 2, 1, Eigen::DontAlign>;
+
 // Vertices, half-edges, faces, nodes. 32 bits hold 2^31 half-edges, that is meshes of 700 million faces.
 using Index = std::int32_t;
 inline constexpr Index kNone = -1;

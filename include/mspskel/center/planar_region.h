@@ -8,9 +8,6 @@
 
 namespace mspskel {
 
-// Not aligned, so it is safe in public structs whatever flags their users compile with.
-using Vector2 = Eigen::Matrix<double, 2, 1, Eigen::DontAlign>;
-
 inline double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
 inline Vector2 turn_left(const Vector2& a) { return {-a.y(), a.x()}; }
 

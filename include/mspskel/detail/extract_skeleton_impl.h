@@ -1,7 +1,7 @@
 #pragma once
 
 #include <chrono>
-#include <future>
+#include <optional>
 
 namespace mspskel {
 namespace detail {
@@ -40,12 +40,6 @@ inline void run_slice_stages(const SliceTracer& tracer, const ExtractOptions& op
   clock.lap("cone_refinement");
   compute_slice_errors(tracer, options.error, result.slices, options.execution);
   clock.lap("slice_error");
-}
-
-// For work of one thread that others need not wait for: beside them where there is a second thread, else when
-// its result is asked for.
-inline std::launch beside(const Execution& execution) {
-  return thread_count(execution) > 1 ? std::launch::async : std::launch::deferred;
 }
 
 // Limbs are told on a surface between the input and the one that the other stages walk on: it shows smaller
@@ -88,24 +82,27 @@ inline std::vector<LimbTip> limb_tips(const SurfaceSnapshot& input, const LimbSu
       limbs.coarse_vertex);
 }
 
-// From slices to the collapsed graph, all on one surface; `slices_are_known` is called between.
-template <class SlicesAreKnown>
-void run_surface_stages(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
-                        const ExtractOptions& options, ExtractResult& result, StageClock& clock,
-                        SlicesAreKnown&& slices_are_known) {
+// Slices and skeletal points, on one surface: the stages that share their vertices among the threads.
+inline void run_vertex_stages(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
+                              const ExtractOptions& options, ExtractResult& result, StageClock& clock) {
   SkeletonMeshOptions points = options.points;
   // Holes of a slice are contours of the surface that was sliced.
   std::optional<BoundingVolumeHierarchy> own;
-  std::future<void> building;
-  if (result.coarse && points.holes != HoleSearch::kIgnore)
-    building = std::async(beside(options.execution), [&] { own.emplace(surface); });
-  const SliceTracer tracer(surface);
-  run_slice_stages(tracer, options, result, clock);
-  slices_are_known();
-  if (building.valid()) building.get();
+  std::optional<SliceTracer> tracer;
+  run_beside(
+      options.execution, [&] { tracer.emplace(surface); },
+      [&] {
+        if (result.coarse && points.holes != HoleSearch::kIgnore) own.emplace(surface);
+      });
+  run_slice_stages(*tracer, options, result, clock);
   points.solid = own ? &*own : &solid;
-  result.skeleton_mesh = make_skeleton_mesh(tracer, result.slices, points, options.execution);
+  result.skeleton_mesh = make_skeleton_mesh(*tracer, result.slices, points, options.execution);
   clock.lap("skeletal_points");
+}
+
+// From skeletal points to the collapsed graph, on the same surface and one thread.
+inline void run_collapse_stages(const SurfaceSnapshot& surface, const ExtractOptions& options,
+                                ExtractResult& result, StageClock& clock) {
   if (options.coherence.enabled) {
     apply_spatial_coherence(surface, options.coherence, result.skeleton_mesh);
     clock.lap("coherence");
@@ -140,16 +137,11 @@ inline void carry_over(ExtractResult& result, ArcGraph& arcs) {
   arcs.hub_of_vertex = carried_over(arcs.hub_of_vertex, from, kNone);
 }
 
-// The cocycles of the input itself, found beside the arcs. No progress is reported: that is for the thread
-// that runs the stages.
-inline std::future<VolumeCocycles> cocycles_of_input(const ExtractResult& result,
-                                                     const ExtractOptions& options) {
-  VertexSlices slices =
+// No progress is reported: that is for the thread that runs the stages.
+inline VolumeCocycles cocycles_of_input(const ExtractResult& result, const ExtractOptions& options) {
+  const VertexSlices slices =
       result.coarse ? carried_over(result.slices, result.coarse->coarse_vertex) : result.slices;
-  return std::async(beside(options.execution),
-                    [&surface = result.surface, &options, slices = std::move(slices)] {
-                      return compute_volume_cocycles(surface, slice_candidates(slices), options.cocycles, {});
-                    });
+  return compute_volume_cocycles(result.surface, slice_candidates(slices), options.cocycles, {});
 }
 
 inline void collect_warnings(ExtractResult& result) {
@@ -211,8 +203,6 @@ inline ExtractResult extract_skeleton_of_snapshot(SurfaceSnapshot surface, const
   ExtractResult result;
   detail::StageClock clock(result.seconds);
   result.surface = std::move(surface);
-  auto hierarchy =
-      std::async(detail::beside(options.execution), [&] { return BoundingVolumeHierarchy(result.surface); });
   // Each shell bounds a solid of its own, the ones round cavities too.
   const std::optional<SurfaceSnapshot> oriented = orient_shells_outward(result.surface);
   const SurfaceSnapshot& shells = oriented ? *oriented : result.surface;
@@ -220,36 +210,38 @@ inline ExtractResult extract_skeleton_of_snapshot(SurfaceSnapshot surface, const
     result.warnings.push_back(
         "shells that are turned inward (cavities) get a skeleton of their own, which lies in the cavity");
   detail::LimbSurface limbs;
-  if (options.coarsen && shells.vertex_count() > options.coarsening.vertices) {
-    result.coarse = detail::coarsen_in_steps(shells, options, limbs);
-    clock.lap("coarsening");
-  }
-  const BoundingVolumeHierarchy solid = hierarchy.get();
+  std::optional<BoundingVolumeHierarchy> hierarchy;
+  run_beside(
+      options.execution,
+      [&] {
+        if (!options.coarsen || shells.vertex_count() <= options.coarsening.vertices) return;
+        result.coarse = detail::coarsen_in_steps(shells, options, limbs);
+        clock.lap("coarsening");
+      },
+      [&] { hierarchy.emplace(result.surface); });
+  const BoundingVolumeHierarchy& solid = *hierarchy;
   clock.lap("hierarchy");
   const SurfaceSnapshot& working = result.coarse ? result.coarse->surface : shells;
-  std::future<std::vector<LimbTip>> tips;
-  detail::run_surface_stages(working, solid, options, result, clock, [&] {
-    if (!options.refinement.enabled) return;
-    tips = std::async(detail::beside(options.execution), [&] {
-      return detail::limb_tips(shells, limbs, solid, result.slices, options.refinement.limbs);
-    });
-  });
-  std::future<VolumeCocycles> input_cocycles;
-  if (result.coarse || oriented) input_cocycles = detail::cocycles_of_input(result, options);
+  detail::run_vertex_stages(working, solid, options, result, clock);
+  std::vector<LimbTip> tips;
+  std::optional<VolumeCocycles> input_cocycles;
+  run_beside(
+      options.execution, [&] { detail::run_collapse_stages(working, options, result, clock); },
+      [&] {
+        if (options.refinement.enabled)
+          tips = detail::limb_tips(shells, limbs, solid, result.slices, options.refinement.limbs);
+        if (result.coarse || oriented) input_cocycles = detail::cocycles_of_input(result, options);
+      });
+  clock.lap("limb_tips");
   ArcGraph arcs;
   if (options.refinement.enabled) {
     arcs = make_arc_graph(result.collapsed);
-    const std::vector<LimbTip> found = tips.get();
-    clock.lap("limb_tips");
-    result.refinement = refine_arcs(arcs, working, shells, solid, result.slices, found, options.refinement,
-                                    options.execution);
+    result.refinement = refine_arcs(arcs, working, shells, solid, result.slices, std::move(tips),
+                                    options.refinement, options.execution);
     clock.lap("arcs");
   }
   if (result.coarse) detail::carry_over(result, arcs);
-  if (input_cocycles.valid()) {
-    result.cocycles = input_cocycles.get();
-    clock.lap("cocycles");
-  }
+  if (input_cocycles) result.cocycles = std::move(*input_cocycles);
   if (options.refinement.enabled) {
     // Last, on the input itself: centring may pull an arc off a handle that is small beside its step.
     result.restoration = restore_cycles(arcs, result.surface, solid, result.cocycles);

@@ -14,7 +14,7 @@ namespace mspskel {
 
 struct CenteringOptions {
   double step = 0.008;        // distance of arc points, share of the model's extent; 0.0005 to 0.5
-  int rounds = 6;             // rounds of sections and solve, 0 to 100
+  int rounds = 5;             // rounds of sections and solve, 0 to 100
   int rays = 16;              // rays a cross-section, 4 to 256
   int tangent_smoothing = 3;  // rounds of neighbour averages before tangents are taken, 0 to 100
   // Weight of |x − mean of neighbours|² against |x − centre|² where the solid is as thick as the step is

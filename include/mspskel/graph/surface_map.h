@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "mspskel/base/progress.h"
 #include "mspskel/graph/curve_skeleton.h"
 #include "mspskel/mesh/surface_snapshot.h"
 
@@ -54,7 +55,8 @@ inline PatchRepair make_patches_connected(const SurfaceSnapshot& snapshot, Curve
 // partition.
 inline PatchRepair assign_vertices_to_branch_nodes(const SurfaceSnapshot& snapshot, CurveSkeleton& skeleton,
                                                    const std::vector<Index>& branch_of_vertex,
-                                                   const std::vector<Branch>& branches);
+                                                   const std::vector<Branch>& branches,
+                                                   const Execution& execution = {});
 
 // Sets every node's area to the surface area of its vertices, model units squared. O(vertices).
 inline void set_areas(const SurfaceSnapshot& snapshot, CurveSkeleton& skeleton);

@@ -3,6 +3,8 @@
 #include <Eigen/SparseCholesky>
 #include <cmath>
 
+#include "mspskel/base/even_directions.h"
+
 namespace mspskel {
 namespace detail {
 
@@ -128,14 +130,21 @@ inline void move_inside(ArcPoints& points, const BoundingVolumeHierarchy& solid,
   std::vector<std::array<Index, 2>> edges;
   for (const auto& chain : points.chains)
     for (std::size_t i = 1; i < chain.size(); ++i) edges.push_back({chain[i - 1], chain[i]});
+  // How often a point's share was cut: an edge that crossed nothing is asked again if one of its ends' was.
+  std::vector<int> cuts(points.x.size(), 0), asked(edges.size(), -1);
   bool changed = true;
   for (int attempt = 0; changed; ++attempt) {
     changed = false;
     for (std::size_t e = 0; e < edges.size(); ++e) {
       const auto [a, b] = edges[e];
       if (share[a] == 0 && share[b] == 0) continue;
+      if (asked[e] == cuts[a] + cuts[b]) continue;
+      asked[e] = cuts[a] + cuts[b];
       if (!solid.segment_crosses(moved(a), moved(b))) continue;
-      for (const Index i : {a, b}) share[i] = attempt < 4 ? 0.5 * share[i] : 0.0;
+      for (const Index i : {a, b}) {
+        share[i] = attempt < 4 ? 0.5 * share[i] : 0.0;
+        ++cuts[i];
+      }
       changed = true;
     }
   }
@@ -232,18 +241,20 @@ inline VisibleSection visible_section(const BoundingVolumeHierarchy& solid, cons
   section.clearance = *std::min_element(r.begin(), r.begin() + rays);
   double area = 0, perimeter = 0, sum_u = 0, sum_w = 0;
   detail::RegionMoments moments;
-  double at_u = r[rays - 1] * std::cos(2 * kPi / rays), at_w = -r[rays - 1] * std::sin(2 * kPi / rays);
+  const std::vector<Vector2>& direction = even_directions(rays);
+  const double cos_turn = direction[1].x(), sin_turn = direction[1].y();
+  double at_u = r[rays - 1] * cos_turn, at_w = -r[rays - 1] * sin_turn;
   for (int i = 0; i < rays; ++i) {
     if (!std::isfinite(r[i])) return section;
-    const double a = 2 * kPi * i / rays, turn = 2 * kPi / rays, s = r[(i + 1) % rays];
-    const double next_u = r[i] * std::cos(a), next_w = r[i] * std::sin(a);
+    const double s = r[i + 1 < rays ? i + 1 : 0];
+    const double next_u = r[i] * direction[i].x(), next_w = r[i] * direction[i].y();
     moments.add(at_u, at_w, next_u, next_w);
     at_u = next_u;
     at_w = next_w;
     sum_u += next_u;
     sum_w += next_w;
-    area += 0.5 * r[i] * s * std::sin(turn);
-    perimeter += std::sqrt(std::max(0.0, r[i] * r[i] + s * s - 2 * r[i] * s * std::cos(turn)));
+    area += 0.5 * r[i] * s * sin_turn;
+    perimeter += std::sqrt(std::max(0.0, r[i] * r[i] + s * s - 2 * r[i] * s * cos_turn));
   }
   section.closed = true;
   section.centre = x + 2.0 / rays * (sum_u * u + sum_w * w);

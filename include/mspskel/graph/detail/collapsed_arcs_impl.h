@@ -107,10 +107,11 @@ inline std::vector<Vector3> points_for_output(const Arc& arc, const std::vector<
 // Nodes that a vertex of a hub may go to: the hub's own and those of the arcs there.
 inline void assign_hub_vertices(const ArcGraph& graph, const SurfaceSnapshot& surface,
                                 const std::vector<Index>& hub_node, const std::vector<std::vector<Index>>& at,
-                                const std::vector<Branch>& arc_nodes, CurveSkeleton& skeleton) {
-  for (Index v = 0; v < surface.vertex_count(); ++v) {
+                                const std::vector<Branch>& arc_nodes, CurveSkeleton& skeleton,
+                                const Execution& execution) {
+  const auto assign = [&](Index v, int) {
     const Index hub = graph.hub_of_vertex[v];
-    if (hub == kNone) continue;
+    if (hub == kNone) return;
     const Vector3 x = surface.frame.to_model(surface.position[v]);
     Index best = hub_node[hub];
     // The least distance to a ball; no root for the many balls that are farther.
@@ -124,7 +125,9 @@ inline void assign_hub_vertices(const ArcGraph& graph, const SurfaceSnapshot& su
         best = i;
       }
     skeleton.node_of_vertex[v] = best;
-  }
+  };
+  parallel_for(
+      surface.vertex_count(), "surface map", execution, [] { return 0; }, assign, 512);
 }
 
 inline void average_over_map(const SurfaceSnapshot& surface, const std::vector<double>& perimeter,
@@ -185,7 +188,7 @@ inline CurveSkeleton make_curve_skeleton(const ArcGraph& graph, const SurfaceSna
   set_radii(surface, solid, skeleton, execution);
 
   skeleton.node_of_vertex.assign(surface.position.size(), kNone);
-  detail::assign_hub_vertices(graph, surface, hub_node, at, chains, skeleton);
+  detail::assign_hub_vertices(graph, surface, hub_node, at, chains, skeleton, execution);
   std::vector<Branch> branch_list;
   std::vector<Index> branch_of_arc(graph.arcs.size(), kNone),
       branch_of_vertex(surface.position.size(), kNone);
@@ -196,7 +199,7 @@ inline CurveSkeleton make_curve_skeleton(const ArcGraph& graph, const SurfaceSna
     }
   for (std::size_t v = 0; v < branch_of_vertex.size(); ++v)
     if (graph.arc_of_vertex[v] != kNone) branch_of_vertex[v] = branch_of_arc[graph.arc_of_vertex[v]];
-  assign_vertices_to_branch_nodes(surface, skeleton, branch_of_vertex, branch_list);
+  assign_vertices_to_branch_nodes(surface, skeleton, branch_of_vertex, branch_list, execution);
   detail::average_over_map(surface, perimeter, error, skeleton);
   return skeleton;
 }

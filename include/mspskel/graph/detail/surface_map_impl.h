@@ -261,7 +261,8 @@ inline PatchRepair make_patches_connected(const SurfaceSnapshot& snapshot, Curve
 
 inline PatchRepair assign_vertices_to_branch_nodes(const SurfaceSnapshot& snapshot, CurveSkeleton& skeleton,
                                                    const std::vector<Index>& branch_of_vertex,
-                                                   const std::vector<Branch>& branches) {
+                                                   const std::vector<Branch>& branches,
+                                                   const Execution& execution) {
   for (std::size_t b = 0; b < branches.size(); ++b) {
     if (branches[b].nodes.empty()) throw UsageError("branch " + std::to_string(b) + " has no nodes");
     for (const Index k : branches[b].nodes)
@@ -275,13 +276,17 @@ inline PatchRepair assign_vertices_to_branch_nodes(const SurfaceSnapshot& snapsh
   nearest.reserve(branches.size());
   for (const Branch& branch : branches) nearest.emplace_back(skeleton, branch);
   skeleton.node_of_vertex.resize(branch_of_vertex.size(), kNone);
-  for (Index v = 0; v < snapshot.vertex_count(); ++v) {
-    const Index b = branch_of_vertex[v];
-    if (b == kNone || snapshot.component[v] == kNone) continue;
-    if (b < 0 || b >= static_cast<Index>(branches.size()))
-      throw UsageError("vertex " + std::to_string(v) + " belongs to branch " + std::to_string(b));
-    skeleton.node_of_vertex[v] = nearest[b](snapshot.frame.to_model(snapshot.position[v]));
-  }
+  constexpr Index kGrain = 512;  // neighbours in storage share what their thread remembers
+  parallel_for(
+      snapshot.vertex_count(), "surface map", execution, [&] { return nearest; },
+      [&](Index v, std::vector<detail::NearestOnChain>& own) {
+        const Index b = branch_of_vertex[v];
+        if (b == kNone || snapshot.component[v] == kNone) return;
+        if (b < 0 || b >= static_cast<Index>(branches.size()))
+          throw UsageError("vertex " + std::to_string(v) + " belongs to branch " + std::to_string(b));
+        skeleton.node_of_vertex[v] = own[b](snapshot.frame.to_model(snapshot.position[v]));
+      },
+      kGrain);
   return make_patches_connected(snapshot, skeleton);
 }
 

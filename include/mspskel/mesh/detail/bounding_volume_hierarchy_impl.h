@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "mspskel/base/clones.h"
+#include "mspskel/base/even_directions.h"
 #include "mspskel/mesh/detail/segment_triangle.h"
 
 namespace mspskel {
@@ -118,9 +119,9 @@ inline Index BoundingVolumeHierarchy::count_hits(const Vector3& origin, const Ve
 
 inline void BoundingVolumeHierarchy::ray_fan(const Vector3& p, const Vector3& u, const Vector3& w, int count,
                                              double* distance) const {
+  const std::vector<Vector2>& direction = even_directions(count);
   for (int k = 0; k < count; ++k) {
-    const double angle = 2 * kPi * k / count;
-    const auto hit = first_hit(p, std::cos(angle) * u + std::sin(angle) * w);
+    const auto hit = first_hit(p, direction[k].x() * u + direction[k].y() * w);
     distance[k] = hit ? hit->distance : std::numeric_limits<double>::infinity();
   }
 }
