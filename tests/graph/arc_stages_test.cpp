@@ -394,6 +394,31 @@ TEST_CASE("What no arc comes near gets an arc and a tip, in a shape with limbs")
   CHECK(map_is_partition(graph));
 }
 
+TEST_CASE("A leaning horn that no arc comes near is reached to its tip") {
+  BallGraph leaning;
+  leaning.blend = 0.05;
+  leaning.nodes = {{{0, 0, -3}, 0.5}, {{0, 0, 3}, 0.5}, {{0, 0, 0}, 0.12}, {{0, 1.5, 1.5}, 0.09}};
+  leaning.edges = {{0, 1}, {2, 3}};
+  const Solid solid(to_mesh(skin_graph(leaning, 4000)));
+  const auto of_horn = [&](const LimbTip& tip) {
+    return (solid.model(tip.position) - leaning.nodes[3].position).norm() < 0.3;
+  };
+  std::vector<LimbTip> tips = find_limb_tips(solid.surface, solid.hierarchy, solid.slices(), {});
+  tips.erase(std::remove_if(tips.begin(), tips.end(), of_horn), tips.end());
+  REQUIRE(tips.size() == 2);
+  for (const Index count : {300, 700}) {
+    ArcGraph graph;
+    graph.add_hub(solid.at({0, 0, -3}));
+    graph.add_hub(solid.at({0, 0, 3}));
+    line(graph, 0, 1, count);
+    map_to_nearest(graph, solid.surface.position);
+    std::vector<LimbTip> found = tips;
+    CHECK(complete_limbs(graph, solid.surface, solid.hierarchy, solid.slices(), found, {}, 0.008) == 1);
+    CHECK(of_horn(found.back()));
+    CHECK((solid.model(graph.hub_position.back()) - leaning.nodes[3].position).norm() < 0.3);
+  }
+}
+
 TEST_CASE("No place is completed twice") {
   for (const std::string name : {"plate", "quadruped", "octoped"}) {
     const Solid solid(sample(name, 3200));

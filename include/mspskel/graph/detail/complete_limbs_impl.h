@@ -200,6 +200,8 @@ class LimbCompletion {
       start = point;
       way.assign(1, x);
       lead_towards(way, target, solid_, step_);
+      // Along a thin limb the straight way may graze the surface.
+      if ((way.back() - target).norm() > 2 * std::max(step_, solid_.distance(way.back()))) break;
       return way.size() > 2;
     }
     inner_.prepare();
