@@ -42,8 +42,8 @@ inline bool is_limb(const LimbMeasures& m, const LimbOptions& o) {
 // An ear or a horn: a bump rather than a limb, but much smaller than what carries it. Only in a shape that
 // has limbs: measured so, the corners of a block are ears as well.
 inline bool is_ear(const LimbMeasures& m, const LimbOptions& o) {
-  return m.slenderness >= 0.35 * o.slenderness && m.slenderness * m.msp_ratio >= 1.28 * o.slenderness &&
-         m.depth >= 0.9 * m.half_width;
+  return m.slenderness >= 0.3 * o.slenderness && m.slenderness * m.msp_ratio >= 0.65 * o.slenderness &&
+         m.depth >= 0.75 * m.half_width;
 }
 
 // A protrusion that no arc comes near, measured without its area: the longer, the less has to tell it from

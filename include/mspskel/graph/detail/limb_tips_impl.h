@@ -105,12 +105,13 @@ class LimbTipSearch {
     LimbMeasures& m = tip.measures;
     m.depth = distance_[part.top] - distance_[saddle];
     if (!(m.depth > kLeastTipDepth * options_.smallest)) return std::nullopt;
-    std::vector<double> perimeters, widths;
-    double whole = 0;
+    std::vector<double> widths;
+    double whole = 0, sliced = 0, perimeter = 0;
     for (const Index v : part.vertices) {
       whole += surface_.vertex_area[v];
       if (!slices_.valid[v]) continue;
-      perimeters.push_back(slices_.perimeter[v]);
+      sliced += surface_.vertex_area[v];
+      perimeter += surface_.vertex_area[v] * slices_.perimeter[v];
       widths.push_back(slices_.half_width[v]);
     }
     if (!(whole > 0)) return std::nullopt;
@@ -128,21 +129,23 @@ class LimbTipSearch {
     }
     if (!(area > 0)) return std::nullopt;
     tip.target /= area;
-    const double own = value_at_rank(std::move(perimeters), 0.5);
-    if (!(own > 0)) return std::nullopt;
-    m.msp_ratio = std::max(1.0, parent_perimeter(part, saddle, 2 * m.half_width) / own);
+    if (!(perimeter > 0)) return std::nullopt;
+    m.msp_ratio = std::max(1.0, parent_perimeter(part, saddle, 2 * m.half_width) * sliced / perimeter);
     return tip;
   }
 
-  // The median MSP round the saddle, the part itself left out.
+  // The mean MSP round the saddle, the part itself left out.
   double parent_perimeter(const Part& part, Index saddle, double reach) {
     ++walk_;
     for (const Index v : part.vertices) walked_[v] = walk_;
     std::vector<Index> round{saddle};
     walked_[saddle] = walk_;
-    std::vector<double> perimeters;
+    double sum = 0, area = 0;
     for (std::size_t i = 0; i < round.size(); ++i) {
-      if (slices_.valid[round[i]]) perimeters.push_back(slices_.perimeter[round[i]]);
+      if (slices_.valid[round[i]]) {
+        sum += surface_.vertex_area[round[i]] * slices_.perimeter[round[i]];
+        area += surface_.vertex_area[round[i]];
+      }
       for_each_neighbour(surface_, round[i], [&](Index w) {
         if (walked_[w] == walk_ ||
             (surface_.position[w] - surface_.position[saddle]).squaredNorm() >= reach * reach)
@@ -151,7 +154,7 @@ class LimbTipSearch {
         round.push_back(w);
       });
     }
-    return value_at_rank(std::move(perimeters), 0.5);
+    return area > 0 ? sum / area : 0.0;
   }
 
   const SurfaceSnapshot& surface_;
