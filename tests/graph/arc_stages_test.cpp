@@ -419,6 +419,17 @@ TEST_CASE("A leaning horn that no arc comes near is reached to its tip") {
   }
 }
 
+TEST_CASE("Vertices without faces are no limb's") {
+  DefaultMesh mesh = to_mesh(skin_graph(tripod(), 1200));
+  mesh.add_vertex({9, 9, 9});
+  const Solid solid(mesh);
+  REQUIRE(solid.surface.component.back() == kNone);
+  ArcGraph graph = tripod_arcs(solid, 0.97);
+  graph.arc_of_vertex.back() = graph.hub_of_vertex.back() = kNone;
+  std::vector<LimbTip> tips = tripod_tips(solid);
+  CHECK(complete_limbs(graph, solid.surface, solid.hierarchy, solid.slices(), tips, {}, 0.01) == 0);
+}
+
 TEST_CASE("No place is completed twice") {
   for (const std::string name : {"plate", "quadruped", "octoped"}) {
     const Solid solid(sample(name, 3200));

@@ -70,8 +70,10 @@ class LimbCompletion {
   Index run() {
     constexpr int kTries = 64;
     Index added = reach_tips();
-    for (std::size_t v = 0; v < outside_.size(); ++v)
-      if (!searched_[surface_.component[v]]) outside_[v] = std::min(outside_[v], 0.0);
+    for (std::size_t v = 0; v < outside_.size(); ++v) {
+      const Index c = surface_.component[v];
+      if (c == kNone || !searched_[c]) outside_[v] = std::min(outside_[v], 0.0);
+    }
     for (int i = 0; i < kTries; ++i) {
       const auto farthest = std::max_element(outside_.begin(), outside_.end());
       if (!(*farthest > std::max(kLeastProtrusion * options_.smallest, step_))) break;
