@@ -12,7 +12,7 @@ namespace mspskel {
 // A block or a bust has no part that protrudes, so nothing in its slices tells one arc from another, and what
 // the collapse leaves there depends on the triangulation. Its moments do not: every component of genus 0
 // without a limb gets one arc through the centroid of its solid, along the principal axis that differs most
-// from the other two. The arc ends where its maximal balls nearly touch the surface ahead. Components whose
+// from the other two. The arc ends half the middle ball's radius before the surface. Components whose
 // axis leaves the solid, as in a cup, stay as they are. `graph` and `tips` are of the vertices of `surface`;
 // tips of depth 0 are no limbs. Returns the number of arcs laid. Cost: O(faces), a few queries a component.
 Index lay_axes(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,

@@ -41,7 +41,7 @@ inline std::vector<SolidMoments> solid_moments(const SurfaceSnapshot& surface) {
   return of;
 }
 
-// From the centre both ways along the axis, as far as the maximal balls fit.
+// From the centre both ways along the axis, up to half the middle ball's radius before the surface.
 inline std::optional<std::vector<Vector3>> axis_points(const SolidMoments& moments,
                                                        const BoundingVolumeHierarchy& solid) {
   if (!(std::abs(moments.volume) > 0)) return std::nullopt;
@@ -52,9 +52,10 @@ inline std::optional<std::vector<Vector3>> axis_points(const SolidMoments& momen
   for (const double sign : {-1.0, 1.0}) {
     const auto ahead = solid.first_hit(centre, sign * axis);
     if (!ahead) return std::nullopt;
-    // The last ball's centre lies as far before the surface as the middle one's is thick, and at least a
-    // tenth of the way off, so that the arc has a length.
-    const double reach = std::max(0.1 * ahead->distance, ahead->distance - clearance);
+    // As far before the surface as a grown end (ExtensionOptions), and at least a tenth of the way off, so
+    // that the arc has a length.
+    constexpr double kTipClearance = 0.5;
+    const double reach = std::max(0.1 * ahead->distance, ahead->distance - kTipClearance * clearance);
     points.push_back(centre + sign * reach * axis);
     if (sign < 0) points.push_back(centre);
   }
