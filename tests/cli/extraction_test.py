@@ -9,13 +9,16 @@ import unittest
 
 from program import PROGRAM, SOURCE, ProgramTest
 
+# What a sanitizer needs to be told.
+SANITIZERS = {name: value for name, value in os.environ.items() if name.endswith("SAN_OPTIONS")}
+
 
 class Environment(ProgramTest):
     def shown(self, **environment):
         """What OpenMP says of its settings, nothing where it does not say."""
         mesh = self.sample()
         result = subprocess.run([PROGRAM, mesh, "-", "-t", "2"], capture_output=True, cwd=self.folder,
-                                env={"OMP_DISPLAY_ENV": "true", **environment})
+                                env={"OMP_DISPLAY_ENV": "true", **SANITIZERS, **environment})
         self.assertEqual(result.returncode, 0)
         return re.findall(rb"OMP_WAIT_POLICY\s*=\s*'(\w+)'", result.stderr)
 
@@ -27,7 +30,7 @@ class Environment(ProgramTest):
 
     def test_empty_environment(self):
         mesh = self.sample()
-        result = subprocess.run([PROGRAM, mesh, "a.skel"], capture_output=True, cwd=self.folder, env={})
+        result = subprocess.run([PROGRAM, mesh, "a.skel"], capture_output=True, cwd=self.folder, env=SANITIZERS)
         self.assertEqual((result.returncode, result.stderr), (0, b""))
 
 
