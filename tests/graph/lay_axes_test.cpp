@@ -50,8 +50,8 @@ TEST_CASE("A block gets one arc along its axis, whatever the collapse made of it
     const Vector3 expected = Eigen::AngleAxisd(angle, turn.normalized()) * Vector3::UnitZ();
     CHECK(std::abs(along.dot(expected)) == Approx(1).epsilon(1e-6));
     for (const Vector3& x : axis.points) CHECK(solid.hierarchy.inside(x));
-    // A prism of radius 5 and length 9 has the inner radius 5/√2; the ends stop half of that before its
-    // faces.
+    // The prism has radius 1 and length 5, so its inner radius is 1/√2; the ends stop half of that before it
+    // ends.
     const double length = (axis.points.back() - axis.points.front()).norm() * solid.surface.frame.scale;
     CHECK(length == Approx(5 - 1 / std::sqrt(2.0)).epsilon(1e-6));
     for (const Index a : graph.arc_of_vertex) CHECK(a == graph.arc_count() - 1);

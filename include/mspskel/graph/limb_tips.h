@@ -35,6 +35,9 @@ std::vector<LimbTip> find_limb_tips(const SurfaceSnapshot& surface, const Boundi
                                     const VertexSlices& slices, const LimbOptions& options,
                                     const Execution& execution = {});
 
+// Per component of the surface, whether one of the tips is a limb's: those of depth 0 are not.
+std::vector<bool> components_with_limbs(const SurfaceSnapshot& surface, const std::vector<LimbTip>& tips);
+
 // The tips as vertices of a coarser surface, whose vertex each vertex merged into.
 std::vector<LimbTip> on_coarser_surface(std::vector<LimbTip> tips, const std::vector<Index>& coarse_vertex);
 

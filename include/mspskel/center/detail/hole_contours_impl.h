@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "mspskel/base/even_directions.h"
+
 namespace mspskel {
 
 namespace detail::slice_centre {
@@ -67,9 +69,9 @@ inline bool may_have_holes(const SliceRegion& slice, const BoundingVolumeHierarc
   const auto free = [&](const Vector2& direction) {
     return unit * (slice.region.first_hit(from, unit * direction) - kMargin);
   };
+  const std::vector<Vector2>& direction = even_directions(rays);
   for (int k = 0; k < rays / 2; ++k) {
-    const double angle = 2 * kPi * k / rays;
-    const Vector2 ahead(std::cos(angle), std::sin(angle));
+    const Vector2& ahead = direction[k];
     const double back = free(-ahead), length = back + free(ahead);
     const Vector3 axis = ahead.x() * slice.frame.u + ahead.y() * slice.frame.v;
     if (solid.first_hit(origin - back * axis, axis, length)) return true;

@@ -40,18 +40,15 @@ class BallChain {
   // be the least.
   double distance_outside(const Vector3& x, double stop = -std::numeric_limits<double>::infinity(),
                           double best = std::numeric_limits<double>::infinity()) const {
-    for (std::size_t r = 0; r < run_.size(); ++r) {
-      if (run_[r].distance_outside(x) >= best) continue;
-      const std::size_t last = std::min((r + 1) * kRun, balls_.size());
-      for (std::size_t i = r * kRun; i < last; ++i) best = std::min(best, balls_[i].distance_outside(x));
-      if (best < stop) break;
-    }
+    double radius = 0;
+    find_nearest(x, best, radius, stop);
     return best;
   }
 
   // As far as x lies beyond one of the balls by less than `distance`, that becomes the least distance, and
-  // `radius` that ball's.
-  void find_nearest(const Vector3& x, double& distance, double& radius) const {
+  // `radius` that ball's; what is found below `stop` may not be the least.
+  void find_nearest(const Vector3& x, double& distance, double& radius,
+                    double stop = -std::numeric_limits<double>::infinity()) const {
     for (std::size_t r = 0; r < run_.size(); ++r) {
       if (run_[r].distance_outside(x) >= distance) continue;
       const std::size_t last = std::min((r + 1) * kRun, balls_.size());
@@ -61,6 +58,7 @@ class BallChain {
         distance = outside;
         radius = balls_[i].radius;
       }
+      if (distance < stop) break;
     }
   }
 

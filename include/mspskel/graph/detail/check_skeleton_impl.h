@@ -5,6 +5,7 @@
 #include <numeric>
 #include <string>
 
+#include "mspskel/base/even_directions.h"
 #include "mspskel/mesh/mesh_report.h"
 
 namespace mspskel {
@@ -40,12 +41,12 @@ inline double off_centre(const BoundingVolumeHierarchy& hierarchy, const Vector3
   const Vector3 u = tangent.cross(axis).normalized(), w = tangent.cross(u);
   std::array<double, kRays> r;
   hierarchy.ray_fan(p, u, w, kRays, r.data());
+  const std::vector<Vector2>& direction = even_directions(kRays);
   double sum = 0.0;
   Vector3 moment = Vector3::Zero();
   for (int k = 0; k < kRays; ++k) {
     sum += r[k];
-    const double angle = 2 * kPi * k / kRays;
-    moment += r[k] * (std::cos(angle) * u + std::sin(angle) * w);
+    moment += r[k] * (direction[k].x() * u + direction[k].y() * w);
   }
   return std::isfinite(sum) && sum > 0 ? moment.norm() / sum : -1.0;
 }

@@ -127,7 +127,7 @@ inline void assign_hub_vertices(const ArcGraph& graph, const SurfaceSnapshot& su
     skeleton.node_of_vertex[v] = best;
   };
   parallel_for(
-      surface.vertex_count(), "surface map", execution, [] { return 0; }, assign, 512);
+      surface.vertex_count(), "surface map", execution, [] { return 0; }, assign, kMapGrain);
 }
 
 inline void average_over_map(const SurfaceSnapshot& surface, const std::vector<double>& perimeter,

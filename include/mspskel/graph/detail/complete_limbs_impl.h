@@ -53,8 +53,9 @@ class LimbCompletion {
           const Vector3& x = surface.position[v];
           double outside = std::numeric_limits<double>::infinity(), radius = 0;
           for (Index h = 0; h < graph.hub_count(); ++h) {
-            if (!graph.hub_alive[h] || balls.hub[h].distance_outside(x) >= outside) continue;
-            outside = balls.hub[h].distance_outside(x);
+            const double beyond = balls.hub[h].distance_outside(x);
+            if (!graph.hub_alive[h] || beyond >= outside) continue;
+            outside = beyond;
             radius = balls.hub[h].radius;
           }
           // The vertex's own arc first: few balls of others are nearer.
@@ -117,9 +118,7 @@ class LimbCompletion {
       whole[surface_.component[v]] += surface_.vertex_area[v];
       if (!covered[v]) bare[surface_.component[v]] += surface_.vertex_area[v];
     }
-    searched_.assign(count, false);
-    for (const LimbTip& tip : tips_)
-      if (tip.measures.depth > 0) searched_[surface_.component[tip.vertex]] = true;
+    searched_ = components_with_limbs(surface_, tips_);
     for (std::size_t c = 0; c < count; ++c)
       if (bare[c] > kMostUncovered * whole[c]) searched_[c] = false;
   }
@@ -254,8 +253,7 @@ class LimbCompletion {
     m.depth = outside_[v];
     // The part of the way that lies in the limb, or the last three of its edges.
     std::size_t first = 0;
-    while (first + 4 < way.size() + 1 && (way[first + 1] - surface_.position[v]).norm() > 1.2 * m.depth)
-      ++first;
+    while (first + 3 < way.size() && (way[first + 1] - surface_.position[v]).norm() > 1.2 * m.depth) ++first;
     const std::vector<Vector3> own(way.begin() + static_cast<std::ptrdiff_t>(first), way.end());
     const auto [width, perimeter] = median_section(own, ball, solid_);
     m.half_width = width;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -66,9 +67,8 @@ inline std::optional<std::vector<Vector3>> axis_points(const SolidMoments& momen
 
 inline Index lay_axes(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
                       const std::vector<LimbTip>& tips) {
-  std::vector<bool> limbed(static_cast<std::size_t>(surface.component_count), false);
-  for (const LimbTip& tip : tips)
-    if (tip.measures.depth > 0) limbed[surface.component[tip.vertex]] = true;
+  const std::vector<bool> limbed = components_with_limbs(surface, tips);
+  if (std::find(limbed.begin(), limbed.end(), false) == limbed.end()) return 0;
   const std::vector<Index> twice_euler = twice_euler_characteristics(surface);
   const std::vector<detail::SolidMoments> moments = detail::solid_moments(surface);
   const std::vector<Index> component = detail::hub_components(graph, surface);

@@ -8,6 +8,15 @@
 #include "mspskel/mesh/inner_distance.h"
 
 namespace mspskel {
+
+inline std::vector<bool> components_with_limbs(const SurfaceSnapshot& surface,
+                                               const std::vector<LimbTip>& tips) {
+  std::vector<bool> limbed(static_cast<std::size_t>(surface.component_count), false);
+  for (const LimbTip& tip : tips)
+    if (tip.measures.depth > 0) limbed[surface.component[tip.vertex]] = true;
+  return limbed;
+}
+
 namespace detail {
 
 // A depth from the middle of the shape is measured between vertices of the surface; in smallest features.
@@ -39,8 +48,7 @@ class LimbTipSearch {
     for (const Index v : order) add(v);
     for (const Index v : order)
       if (parent_[v] == v && part_[v].limb) limbs_.push_back(std::move(*part_[v].limb));
-    std::vector<bool> limbed(static_cast<std::size_t>(surface_.component_count), false);
-    for (const LimbTip& tip : limbs_) limbed[surface_.component[tip.vertex]] = true;
+    const std::vector<bool> limbed = components_with_limbs(surface_, limbs_);
     for (LimbTip& tip : ears_)
       if (limbed[surface_.component[tip.vertex]]) limbs_.push_back(std::move(tip));
     return std::move(limbs_);

@@ -107,6 +107,9 @@ inline void settle_joined(const SurfacePatches& patches, const std::vector<std::
   }
 }
 
+// Vertices that a thread takes at a time: neighbours in storage share what it remembers.
+inline constexpr Index kMapGrain = 512;
+
 // Finds the edge of a chain that is nearest to a point.
 class NearestOnChain {
  public:
@@ -276,7 +279,6 @@ inline PatchRepair assign_vertices_to_branch_nodes(const SurfaceSnapshot& snapsh
   nearest.reserve(branches.size());
   for (const Branch& branch : branches) nearest.emplace_back(skeleton, branch);
   skeleton.node_of_vertex.resize(branch_of_vertex.size(), kNone);
-  constexpr Index kGrain = 512;  // neighbours in storage share what their thread remembers
   parallel_for(
       snapshot.vertex_count(), "surface map", execution, [&] { return nearest; },
       [&](Index v, std::vector<detail::NearestOnChain>& own) {
@@ -286,7 +288,7 @@ inline PatchRepair assign_vertices_to_branch_nodes(const SurfaceSnapshot& snapsh
           throw UsageError("vertex " + std::to_string(v) + " belongs to branch " + std::to_string(b));
         skeleton.node_of_vertex[v] = own[b](snapshot.frame.to_model(snapshot.position[v]));
       },
-      kGrain);
+      detail::kMapGrain);
   return make_patches_connected(snapshot, skeleton);
 }
 
