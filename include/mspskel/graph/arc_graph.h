@@ -61,6 +61,9 @@ std::vector<Vector3> resampled(const Arc& arc, double step, Index min_edges = 1)
 // Cuts edges longer than `longest` into equal pieces; the curve stays the same.
 void subdivide(ArcGraph& graph, double longest);
 
+// Puts a hub at an inner point of an arc, which ends there; the rest of it becomes the last arc. The hub.
+Index split_arc(ArcGraph& graph, Index arc, std::size_t point);
+
 // Removes a leaf arc: the hub `keep` that it leaves takes its vertices, and those of its tip.
 void remove_leaf_arc(ArcGraph& graph, Index arc, Index keep);
 

@@ -5,6 +5,7 @@
 
 #include "mspskel/base/progress.h"
 #include "mspskel/graph/limb_measures.h"
+#include "mspskel/graph/shells.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/mesh/surface_snapshot.h"
 #include "mspskel/slice/vertex_slices.h"
@@ -28,12 +29,17 @@ struct LimbTip {
 // surface's triangles do not matter. A limb is deeper than 2.5 smallest features, and is_limb; in a component
 // that has limbs, is_ear will do. What reaches farthest counts where something else does, and its end is
 // measured where it meets the first other limb. A limb across the way to another one is measured less than
-// its length; what goes round a handle has a maximum too, though no limb. In a component of genus 0 without
-// limbs the ends of its longest way are tips of depth 0. Cost: a segment query a vertex, O(vertices log
-// vertices).
+// its length; what goes round a handle has a maximum too, though no limb. None lies in the wall of a shell.
+// In a component of genus 0 without limbs the ends of its longest way are tips of depth 0. Cost: a segment
+// query a vertex, O(vertices log vertices).
 std::vector<LimbTip> find_limb_tips(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
                                     const VertexSlices& slices, const LimbOptions& options,
                                     const Execution& execution = {});
+
+// Drops the tips that lie in a wall of a shell, where what reaches farthest is any place of the rim: those
+// whose ends are less than 0.45 half widths thick on either side of the middle.
+void drop_tips_in_walls(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
+                        const std::vector<bool>& shells, std::vector<LimbTip>& tips);
 
 // Per component of the surface, whether one of the tips is a limb's: those of depth 0 are not.
 std::vector<bool> components_with_limbs(const SurfaceSnapshot& surface, const std::vector<LimbTip>& tips);

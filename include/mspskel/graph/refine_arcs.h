@@ -12,6 +12,8 @@
 #include "mspskel/graph/merge_joints.h"
 #include "mspskel/graph/prune_branches.h"
 #include "mspskel/graph/route_inside.h"
+#include "mspskel/graph/shells.h"
+#include "mspskel/graph/tighten_walls.h"
 #include "mspskel/graph/zip_arcs.h"
 
 namespace mspskel {
@@ -92,6 +94,7 @@ class ArcRefinement {
     center(options_.centering);
     if (drop_spurs() > 0) center(touch_up_);
     aim_strays();
+    tighten();
     lay();  // straight again: in a block every wall is as near, and centring goes where the noise leads
     subdivide(graph_, 1.25 * options_.centering.step);  // rounds of centring stretch some edges
     return counts_;
@@ -133,6 +136,11 @@ class ArcRefinement {
   void lay() {
     counts_.axes = lay_axes(graph_, surface_, solid_, tips_);
     keep_type("laying of axes");
+  }
+  void tighten() {
+    tighten_in_walls(graph_, surface_, solid_, find_shells(surface_, solid_, slices_), inner_,
+                     options_.centering.step);
+    keep_type("tightening in walls");
   }
   void prune() {
     counts_.pruned += prune_branches(graph_, tips_);

@@ -93,6 +93,18 @@ inline void subdivide(ArcGraph& graph, double longest) {
   }
 }
 
+inline Index split_arc(ArcGraph& graph, Index arc, std::size_t point) {
+  Arc& first = graph.arcs[arc];
+  const Index hub = graph.add_hub(first.points[point]);
+  Arc rest = first;
+  rest.points.erase(rest.points.begin(), rest.points.begin() + static_cast<std::ptrdiff_t>(point));
+  rest.hub[0] = hub;
+  first.points.resize(point + 1);
+  first.hub[1] = hub;
+  graph.arcs.push_back(std::move(rest));
+  return hub;
+}
+
 inline void remove_leaf_arc(ArcGraph& graph, Index arc, Index keep) {
   Arc& gone = graph.arcs[arc];
   const Index tip = gone.hub[0] == keep ? gone.hub[1] : gone.hub[0];

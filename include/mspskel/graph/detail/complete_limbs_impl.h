@@ -5,6 +5,7 @@
 
 #include "mspskel/graph/detail/arc_leaves.h"
 #include "mspskel/graph/detail/arc_sections.h"
+#include "mspskel/graph/detail/near_vertices.h"
 
 namespace mspskel {
 namespace detail {
@@ -268,14 +269,7 @@ class LimbCompletion {
 
   Index hub_at(const GraphPoint& p) {
     if (p.hub != kNone) return p.hub;
-    const Index hub = graph_.add_hub(p.position);
-    Arc rest = graph_.arcs[p.arc];
-    Arc& first = graph_.arcs[p.arc];
-    rest.points.erase(rest.points.begin(), rest.points.begin() + static_cast<std::ptrdiff_t>(p.index));
-    rest.hub[0] = hub;
-    first.points.resize(p.index + 1);
-    first.hub[1] = hub;
-    graph_.arcs.push_back(std::move(rest));
+    const Index hub = split_arc(graph_, p.arc, p.index);
     give_near_vertices(graph_, surface_, p.arc, graph_.arc_count() - 1);
     return hub;
   }

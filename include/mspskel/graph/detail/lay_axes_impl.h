@@ -1,66 +1,32 @@
 #pragma once
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
 
+#include "mspskel/graph/detail/axis_stretch.h"
+
 namespace mspskel {
 namespace detail {
 
-// Volume integrals over the solid that a component bounds, from the tetrahedra of its faces and the origin.
-struct SolidMoments {
-  double volume = 0.0;
-  Vector3 first = Vector3::Zero();                   // ∫ x
-  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();  // ∫ x xᵀ
-
-  Vector3 centroid() const { return first / volume; }
-
-  // The principal axis whose moment stands apart from the other two by the larger factor.
-  Vector3 axis() const {
-    const Vector3 c = centroid();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(second / volume - c * c.transpose());
-    const Vector3 moment = solver.eigenvalues();  // ascending
-    return solver.eigenvectors().col(moment[2] * moment[0] > moment[1] * moment[1] ? 2 : 0);
-  }
-};
-
-inline std::vector<SolidMoments> solid_moments(const SurfaceSnapshot& surface) {
-  std::vector<SolidMoments> of(static_cast<std::size_t>(surface.component_count));
-  for (Index h = 0; h < surface.halfedge_count(); h += 3) {
-    const std::array<Index, 3> corner{surface.origin[h], surface.target(h), surface.apex(h)};
-    SolidMoments& m = of[surface.component[corner[0]]];
-    const Vector3 &a = surface.position[corner[0]], &b = surface.position[corner[1]],
-                  &c = surface.position[corner[2]], sum = a + b + c;
-    const double volume = a.dot(b.cross(c)) / 6;
-    m.volume += volume;
-    m.first += volume / 4 * sum;
-    m.second +=
-        volume / 20 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
-  }
-  return of;
-}
-
-// From the centre both ways along the axis, up to half the middle ball's radius before the surface.
+// Both ends half the middle ball's radius before the surface.
 inline std::optional<std::vector<Vector3>> axis_points(const SolidMoments& moments,
                                                        const BoundingVolumeHierarchy& solid) {
-  if (!(std::abs(moments.volume) > 0)) return std::nullopt;
-  const Vector3 centre = moments.centroid(), axis = moments.axis();
-  if (!solid.inside(centre)) return std::nullopt;
+  const auto stretch = axis_stretch(moments, solid);
+  if (!stretch) return std::nullopt;
+  const auto [from, to] = *stretch;
+  const Vector3 centre = solid.inside(moments.centroid()) ? moments.centroid() : Vector3((from + to) / 2);
   const double clearance = solid.distance(centre);
-  std::vector<Vector3> points;
-  for (const double sign : {-1.0, 1.0}) {
-    const auto ahead = solid.first_hit(centre, sign * axis);
-    if (!ahead) return std::nullopt;
+  const auto end = [&](const Vector3& surface) -> Vector3 {
     // As far before the surface as a grown end (ExtensionOptions), and at least a tenth of the way off, so
     // that the arc has a length.
     constexpr double kTipClearance = 0.5;
-    const double reach = std::max(0.1 * ahead->distance, ahead->distance - kTipClearance * clearance);
-    points.push_back(centre + sign * reach * axis);
-    if (sign < 0) points.push_back(centre);
-  }
-  return points;
+    const double distance = (surface - centre).norm();
+    const double reach = std::max(0.1 * distance, distance - kTipClearance * clearance);
+    return centre + reach / distance * (surface - centre);
+  };
+  return std::vector<Vector3>{end(from), centre, end(to)};
 }
 
 }  // namespace detail

@@ -292,6 +292,18 @@ inline std::vector<std::optional<Vector3>> middle_of_components(const SurfaceSna
 
 }  // namespace detail
 
+inline void drop_tips_in_walls(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
+                               const std::vector<bool>& shells, std::vector<LimbTip>& tips) {
+  constexpr double kThin = 0.45;
+  const auto in_wall = [&](const LimbTip& tip) {
+    if (!shells[surface.component[tip.vertex]]) return false;
+    std::vector<double> chords;
+    for (const Index v : tip.cap) chords.push_back(detail::half_chord(surface, solid, v));
+    return detail::value_at_rank(std::move(chords), 0.5) < kThin * tip.measures.half_width;
+  };
+  tips.erase(std::remove_if(tips.begin(), tips.end(), in_wall), tips.end());
+}
+
 inline std::vector<LimbTip> find_limb_tips(const SurfaceSnapshot& surface,
                                            const BoundingVolumeHierarchy& solid, const VertexSlices& slices,
                                            const LimbOptions& options, const Execution& execution) {
@@ -304,6 +316,7 @@ inline std::vector<LimbTip> find_limb_tips(const SurfaceSnapshot& surface,
   for (LimbTip& tip : tips)
     if (!solid.inside(tip.target) || solid.distance(tip.target) < kLeastClearance * tip.measures.half_width)
       tip.target = surface.position[tip.vertex];
+  drop_tips_in_walls(surface, solid, find_shells(surface, solid, slices), tips);
   detail::add_longest_ways(surface, ways, distance, tips);
   for (LimbTip& tip : tips) tip.position = surface.position[tip.vertex];
   return tips;

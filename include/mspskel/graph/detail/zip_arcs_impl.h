@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mspskel/graph/detail/near_vertices.h"
+
 namespace mspskel {
 namespace detail {
 
@@ -80,20 +82,6 @@ inline void cut_front(Arc& arc, int end, std::size_t count, Index joint, const V
   if (end == 1) std::reverse(rest.begin(), rest.end());
   arc.points = std::move(rest);
   arc.hub[end] = joint;
-}
-
-inline double distance_to_points(const std::vector<Vector3>& points, const Vector3& x) {
-  double best = std::numeric_limits<double>::infinity();
-  for (const Vector3& p : points) best = std::min(best, (p - x).squaredNorm());
-  return best;
-}
-
-inline void give_near_vertices(ArcGraph& graph, const SurfaceSnapshot& surface, Index from, Index to) {
-  for (Index v = 0; v < surface.vertex_count(); ++v)
-    if (graph.arc_of_vertex[v] == from &&
-        distance_to_points(graph.arcs[to].points, surface.position[v]) <
-            distance_to_points(graph.arcs[from].points, surface.position[v]))
-      graph.arc_of_vertex[v] = to;
 }
 
 struct Zip {

@@ -1,0 +1,91 @@
+// Where the principal axis of a solid runs inside it.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "mspskel/base/even_directions.h"
+#include "mspskel/mesh/bounding_volume_hierarchy.h"
+#include "mspskel/mesh/detail/solid_moments.h"
+
+namespace mspskel {
+namespace detail {
+
+// The longest stretch that a line has in the solid.
+inline std::optional<std::array<Vector3, 2>> longest_stretch(const Vector3& point, const Vector3& direction,
+                                                             const BoundingVolumeHierarchy& solid) {
+  constexpr double kReach = 4.0;  // beyond the model, whose extent is 1
+  constexpr double kSkip = 1e-7;  // off the surface just met
+  std::optional<std::array<Vector3, 2>> longest;
+  double length = 0;
+  Vector3 from = point - kReach * direction;
+  while (const auto hit = solid.first_hit(from + kSkip * direction, direction)) {
+    const Vector3 to = from + (hit->distance + kSkip) * direction;
+    if (hit->distance > length && hit->distance < kReach / 2 && solid.inside((from + to) / 2)) {
+      length = hit->distance;
+      longest = {from, to};
+    }
+    from = to;
+  }
+  return longest;
+}
+
+// Where a point in a hollow sees out: the mean direction to the rim of the opening, a unit vector. None if
+// there is no opening, or as much of one on the other side.
+inline std::optional<Vector3> opening_direction(const Vector3& point, const BoundingVolumeHierarchy& solid) {
+  constexpr int kRays = 400;
+  constexpr double kOneSided = 0.5;  // length of the mean direction; that of a half space
+  const auto escapes = [&](const Vector3& way) { return !solid.first_hit(point, way); };
+  Vector3 sum = Vector3::Zero();
+  int free = 0;
+  for (int k = 0; k < kRays; ++k) {  // evenly over the sphere, by the golden angle
+    const double z = (2 * k + 1.0) / kRays - 1, angle = kPi * (3 - std::sqrt(5.0)) * k;
+    const Vector3 way(std::sqrt(1 - z * z) * std::cos(angle), std::sqrt(1 - z * z) * std::sin(angle), z);
+    if (!escapes(way)) continue;
+    sum += way;
+    ++free;
+  }
+  if (free == 0 || !(sum.norm() >= kOneSided * free)) return std::nullopt;
+  // The rays are too few to find its middle by; the rim all round is exact, whichever way the model lies.
+  Vector3 middle = sum.normalized();
+  constexpr int kRounds = 3, kRim = 32, kHalvings = 12;
+  for (int round = 0; round < kRounds && escapes(middle); ++round) {
+    const Vector3 u = middle.unitOrthogonal(), w = middle.cross(u);
+    Vector3 rim = Vector3::Zero();
+    for (const Vector2& d : even_directions(kRim)) {
+      double inner = 0, outer = kPi;
+      const auto at = [&](double angle) -> Vector3 {
+        return std::cos(angle) * middle + std::sin(angle) * (d.x() * u + d.y() * w);
+      };
+      for (int k = 0; k < kHalvings; ++k) {
+        const double half = (inner + outer) / 2;
+        (escapes(at(half)) ? inner : outer) = half;
+      }
+      rim += at((inner + outer) / 2);
+    }
+    if (rim.norm() > 0) middle = rim.normalized();
+  }
+  return middle;
+}
+
+// The axis of a solid as far as it runs inside. Of a block, whose centroid lies inside, it is the principal
+// axis that stands apart, there and back from the centroid. Of a vessel it is the line from the opening
+// through the centroid, and of that the longest stretch, which is the stem or lies in the floor; its moments
+// may well be equal, and a handle turns them.
+inline std::optional<std::array<Vector3, 2>> axis_stretch(const SolidMoments& moments,
+                                                          const BoundingVolumeHierarchy& solid) {
+  if (!(std::abs(moments.volume) > 0)) return std::nullopt;
+  const Vector3 centre = moments.centroid();
+  if (!solid.inside(centre)) {
+    const auto opening = opening_direction(centre, solid);
+    return opening ? longest_stretch(centre, *opening, solid) : std::nullopt;
+  }
+  const Vector3 axis = moments.axis();
+  const auto back = solid.first_hit(centre, -axis), ahead = solid.first_hit(centre, axis);
+  if (!back || !ahead) return std::nullopt;
+  return std::array<Vector3, 2>{centre - back->distance * axis, centre + ahead->distance * axis};
+}
+
+}  // namespace detail
+}  // namespace mspskel

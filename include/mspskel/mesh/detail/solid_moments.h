@@ -1,0 +1,47 @@
+// Volume integrals over the solids that the components of a surface bound.
+#pragma once
+
+#include <Eigen/Eigenvalues>
+#include <array>
+#include <vector>
+
+#include "mspskel/mesh/surface_snapshot.h"
+
+namespace mspskel {
+namespace detail {
+
+// From the tetrahedra of the faces and the origin.
+struct SolidMoments {
+  double volume = 0.0;
+  Vector3 first = Vector3::Zero();                   // ∫ x
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();  // ∫ x xᵀ
+
+  Vector3 centroid() const { return first / volume; }
+
+  // The principal axis whose moment stands apart from the other two by the larger factor.
+  Vector3 axis() const {
+    const Vector3 c = centroid();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(second / volume - c * c.transpose());
+    const Vector3 moment = solver.eigenvalues();  // ascending
+    return solver.eigenvectors().col(moment[2] * moment[0] > moment[1] * moment[1] ? 2 : 0);
+  }
+};
+
+inline std::vector<SolidMoments> solid_moments(const SurfaceSnapshot& surface) {
+  std::vector<SolidMoments> of(static_cast<std::size_t>(surface.component_count));
+  for (Index h = 0; h < surface.halfedge_count(); h += 3) {
+    const std::array<Index, 3> corner{surface.origin[h], surface.target(h), surface.apex(h)};
+    SolidMoments& m = of[surface.component[corner[0]]];
+    const Vector3 &a = surface.position[corner[0]], &b = surface.position[corner[1]],
+                  &c = surface.position[corner[2]], sum = a + b + c;
+    const double volume = a.dot(b.cross(c)) / 6;
+    m.volume += volume;
+    m.first += volume / 4 * sum;
+    m.second +=
+        volume / 20 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
+  }
+  return of;
+}
+
+}  // namespace detail
+}  // namespace mspskel
