@@ -27,12 +27,19 @@ inline void validate(const LimbOptions& o) {
 // slices are than those of the part that it leaves (the saturation of Eq. 4.5 lifted from nodes to branches).
 struct LimbMeasures {
   double depth = 0.0;       // how far the limb's surface reaches beyond the rest
-  double half_width = 0.0;  // median of its slices
+  double half_width = 0.0;  // of its slices: their median, or lower quartile along a way into it
   double msp_ratio = 1.0;   // MSP of the part that it leaves / MSP of the limb, at least 1
   // 2π depth² / area: length over radius of a tube, 2 / sin of the half angle of a cone. An area moves little
   // under noise and with the triangles, so this decides.
   double slenderness = 0.0;
 };
+
+// Digits and the like: where a limb is about as thin as the smallest feature, the triangles decide how long
+// it is, so it has to be longer than others: `depth` smallest features.
+inline bool is_too_thin(const LimbMeasures& m, const LimbOptions& o, double depth) {
+  constexpr double kThin = 1.15;  // half width, in smallest features
+  return m.half_width < kThin * o.smallest && m.depth < depth * o.smallest;
+}
 
 // A limb by its slenderness alone.
 inline bool is_limb(const LimbMeasures& m, const LimbOptions& o) {
@@ -49,9 +56,11 @@ inline bool is_ear(const LimbMeasures& m, const LimbOptions& o) {
 // A protrusion that no arc comes near, measured without its area: the longer, the less has to tell it from
 // the rest.
 inline bool is_missed_limb(const LimbMeasures& m, const LimbOptions& o) {
+  constexpr double kThinDepth = 9.0;
   constexpr double kMost = 6.0;  // more says nothing: the smaller the slices, the rougher
-  return m.half_width > 0 && std::min(kMost, m.depth / m.half_width * std::min(m.msp_ratio, 9.0)) * m.depth >=
-                                 25 * o.slenderness * o.smallest;
+  return m.half_width > 0 && !is_too_thin(m, o, kThinDepth) &&
+         std::min(kMost, m.depth / m.half_width * std::min(m.msp_ratio, 9.0)) * m.depth >=
+             28 * o.slenderness * o.smallest;
 }
 
 namespace detail {

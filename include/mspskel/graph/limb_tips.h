@@ -26,12 +26,12 @@ struct LimbTip {
 // parts of the surface beyond a distance grow together as the distance falls, the limbs that they stand for
 // meet, so a limb is as deep as its maximum is persistent (Edelsbrunner, Letscher and Zomorodian 2002,
 // "Topological persistence and simplification"). Noise moves no depth by more than twice its size, and the
-// surface's triangles do not matter. A limb is deeper than 2.5 smallest features, and is_limb; in a component
-// that has limbs, is_ear will do. What reaches farthest counts where something else does, and its end is
-// measured where it meets the first other limb. A limb across the way to another one is measured less than
-// its length; what goes round a handle has a maximum too, though no limb. None lies in the wall of a shell.
-// In a component of genus 0 without limbs the ends of its longest way are tips of depth 0. Cost: a segment
-// query a vertex, O(vertices log vertices).
+// surface's triangles do not matter. A limb is deeper than 2.5 smallest features, a thin one than 3.4, and
+// is_limb; in a component that has limbs, is_ear will do. What reaches farthest counts where something else
+// does, and its end is measured where it meets the first other limb. A limb across the way to another one is
+// measured less than its length; what goes round a handle has a maximum too, though no limb. None lies in the
+// wall of a shell. In a component of genus 0 without limbs the ends of its longest way are tips of depth 0.
+// Cost: a segment query a vertex, O(vertices log vertices).
 std::vector<LimbTip> find_limb_tips(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
                                     const VertexSlices& slices, const LimbOptions& options,
                                     const Execution& execution = {});

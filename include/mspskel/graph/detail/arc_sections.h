@@ -25,9 +25,10 @@ inline std::array<double, 2> section_size(const BoundingVolumeHierarchy& solid, 
   return {section.half_width, perimeter};
 }
 
-// Medians over at most nine points of a polyline outside the ball.
-inline std::array<double, 2> median_section(const std::vector<Vector3>& points, const Ball& ball,
-                                            const BoundingVolumeHierarchy& solid) {
+// Lower quartiles over at most nine points of a polyline outside the ball: a way into a limb comes from what
+// is wider, and how much of it does is chance.
+inline std::array<double, 2> lower_section(const std::vector<Vector3>& points, const Ball& ball,
+                                           const BoundingVolumeHierarchy& solid) {
   constexpr std::size_t kMost = 9;
   std::vector<std::size_t> outside;
   for (std::size_t i = 1; i + 1 < points.size(); ++i)
@@ -41,7 +42,7 @@ inline std::array<double, 2> median_section(const std::vector<Vector3>& points, 
     widths.push_back(width);
     perimeters.push_back(perimeter);
   }
-  return {value_at_rank(std::move(widths), 0.5), value_at_rank(std::move(perimeters), 0.5)};
+  return {value_at_rank(std::move(widths), 0.25), value_at_rank(std::move(perimeters), 0.25)};
 }
 
 }  // namespace detail

@@ -256,7 +256,7 @@ class LimbCompletion {
     std::size_t first = 0;
     while (first + 3 < way.size() && (way[first + 1] - surface_.position[v]).norm() > 1.2 * m.depth) ++first;
     const std::vector<Vector3> own(way.begin() + static_cast<std::ptrdiff_t>(first), way.end());
-    const auto [width, perimeter] = median_section(own, ball, solid_);
+    const auto [width, perimeter] = lower_section(own, ball, solid_);
     m.half_width = width;
     std::vector<double> parents;
     for (Index w = 0; w < surface_.vertex_count(); ++w)

@@ -21,6 +21,7 @@ namespace detail {
 
 // A depth from the middle of the shape is measured between vertices of the surface; in smallest features.
 inline constexpr double kLeastTipDepth = 2.5;
+inline constexpr double kLeastThinTipDepth = 3.4;
 
 // So much of a limb's end, in half widths, has its mean in the middle of it, on flat ends as well.
 inline constexpr double kEnd = 0.75;
@@ -125,6 +126,7 @@ class LimbTipSearch {
     if (!(whole > 0)) return std::nullopt;
     m.half_width = value_at_rank(std::move(widths), 0.5);
     m.slenderness = 2 * kPi * m.depth * m.depth / whole;
+    if (is_too_thin(m, options_, kLeastThinTipDepth)) return std::nullopt;
     const double cap = std::min(0.5 * m.depth, 1.5 * m.half_width);
     const double end = std::min(0.5 * m.depth, kEnd * m.half_width);
     double area = 0;
