@@ -10,6 +10,7 @@
 #include "commands.h"
 #include "extract_settings.h"
 #include "mspskel/base/error.h"
+#include "mspskel/base/progress.h"
 #include "mspskel/base/stopwatch.h"
 #include "mspskel/io/atomic_file.h"
 #include "mspskel/io/read_mesh.h"
@@ -17,6 +18,8 @@
 #include "mspskel/mesh/build_mesh.h"
 #include "report.h"
 #include "stage_files.h"
+#include "terminal.h"
+#include "thread_placement.h"
 
 namespace mspskel::cli {
 namespace {
@@ -61,6 +64,7 @@ void extract(const ExtractSettings& given, const Cancellation& cancellation, Ter
   ProgramSeconds seconds;
   check_outputs(settings);
 
+  keep_threads_apart(thread_count(settings.options.execution));
   BuiltMesh input = build_mesh_with_report(read_polygon_soup(settings.input));
   seconds.read = total.seconds();
   cancellation.throw_if_requested();
