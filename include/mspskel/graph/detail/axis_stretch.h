@@ -17,10 +17,13 @@ inline std::optional<std::array<Vector3, 2>> longest_stretch(const Vector3& poin
                                                              const BoundingVolumeHierarchy& solid) {
   constexpr double kReach = 4.0;  // beyond the model, whose extent is 1
   constexpr double kSkip = 1e-7;  // off the surface just met
+  constexpr int kHits = 10000;    // a line that runs in a face may meet it at every skip
   std::optional<std::array<Vector3, 2>> longest;
   double length = 0;
   Vector3 from = point - kReach * direction;
-  while (const auto hit = solid.first_hit(from + kSkip * direction, direction)) {
+  for (int hits = 0; hits < kHits; ++hits) {
+    const auto hit = solid.first_hit(from + kSkip * direction, direction);
+    if (!hit) break;
     const Vector3 to = from + (hit->distance + kSkip) * direction;
     if (hit->distance > length && hit->distance < kReach / 2 && solid.inside((from + to) / 2)) {
       length = hit->distance;
