@@ -15,9 +15,9 @@ namespace mspskel {
 // wall from one end of its handle to the other: rounds of the heat flow along the line, each followed by a
 // move to the middle of the wall's chord. Points in tubes, hubs of other arcs, and loops without a tube stay.
 // A shell with loops and no leaf gets an arc from the end of a tube to the middle of its floor, which is
-// where its principal axis runs inside; the shortest of these arcs. A point moves only as far as its edges
-// stay off the surface. Returns the number of arcs drawn. Cost: a section a point, and a closest point and a
-// ray a point and round; a path through the solid an end of a tube.
+// where the axis of its opening runs inside; the shortest of these arcs. A point moves only as far as its
+// edges stay off the surface. Returns the number of arcs drawn. Cost: a section a point, and a closest point
+// and a ray a point and round; a path through the solid an end of a tube.
 Index tighten_in_walls(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
                        const std::vector<bool>& shells, detail::InnerGraph& inner, double step);
 

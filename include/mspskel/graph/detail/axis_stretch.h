@@ -1,4 +1,4 @@
-// Where the principal axis of a solid runs inside it.
+// Where the axis of a solid runs inside it: a principal axis, or in a vessel that of its opening.
 #pragma once
 
 #include <array>

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "mspskel/base/progress.h"
+#include "mspskel/graph/detail/inward_chord.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/mesh/surface_snapshot.h"
 
@@ -89,19 +90,9 @@ class InnerGraph {
 
   void place(Index v) {
     if (surface_.vertex_halfedge[v] == kNone) return;
-    const Vector3 inward = -surface_.normal[v];
-    // The start lies off the surface by far less than a chord and far more than rounding.
-    Vector3 start = surface_.position[v] + 1e-7 * inward;
-    // A vertex of a coarser surface may lie outside the solid: the chord starts where the ray enters.
-    if (!solid_.inside(start)) {
-      const auto entry = solid_.first_hit(start, inward);
-      if (!entry) return;
-      start += (entry->distance + 1e-7) * inward;
-      if (!solid_.inside(start)) return;
-    }
-    const auto hit = solid_.first_hit(start, inward);
-    if (!hit || hit->distance <= 0) return;
-    point_[v] = start + 0.5 * hit->distance * inward;
+    const auto chord = inward_chord(surface_, solid_, v);
+    if (!chord) return;
+    point_[v] = chord->start - 0.5 * chord->length * surface_.normal[v];
     clearance_[v] = kUnknown;
   }
 

@@ -3,25 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mspskel/graph/detail/inward_chord.h"
 #include "mspskel/graph/limb_measures.h"
 #include "mspskel/mesh/detail/solid_moments.h"
 
 namespace mspskel {
 namespace detail {
 
-// Half the chord inward from a vertex of the surface, which may lie a little outside the solid; 0 if there is
-// none.
+// Half the chord inward from a vertex; 0 if there is none.
 inline double half_chord(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid, Index v) {
-  constexpr double kSkip = 1e-7;  // far less than a chord and far more than rounding
-  const Vector3 inward = -surface.normal[v];
-  Vector3 start = surface.position[v] + kSkip * inward;
-  if (!solid.inside(start)) {
-    const auto entry = solid.first_hit(start, inward);
-    if (!entry) return 0.0;
-    start += (entry->distance + kSkip) * inward;
-  }
-  const auto hit = solid.first_hit(start, inward);
-  return hit ? 0.5 * hit->distance : 0.0;
+  const auto chord = inward_chord(surface, solid, v);
+  return chord ? 0.5 * chord->length : 0.0;
 }
 
 }  // namespace detail

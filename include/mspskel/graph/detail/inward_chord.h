@@ -1,0 +1,36 @@
+// The way through the solid that begins at a vertex of the surface.
+#pragma once
+
+#include <optional>
+
+#include "mspskel/mesh/bounding_volume_hierarchy.h"
+#include "mspskel/mesh/surface_snapshot.h"
+
+namespace mspskel {
+namespace detail {
+
+struct InwardChord {
+  Vector3 start = Vector3::Zero();
+  double length = 0.0;
+};
+
+// Against the vertex's normal. A vertex of a coarser surface may lie outside the solid: the chord starts
+// where the ray enters.
+inline std::optional<InwardChord> inward_chord(const SurfaceSnapshot& surface,
+                                               const BoundingVolumeHierarchy& solid, Index v) {
+  constexpr double kSkip = 1e-7;  // far less than a chord and far more than rounding
+  const Vector3 inward = -surface.normal[v];
+  Vector3 start = surface.position[v] + kSkip * inward;
+  if (!solid.inside(start)) {
+    const auto entry = solid.first_hit(start, inward);
+    if (!entry) return std::nullopt;
+    start += (entry->distance + kSkip) * inward;
+    if (!solid.inside(start)) return std::nullopt;
+  }
+  const auto hit = solid.first_hit(start, inward);
+  if (!hit || hit->distance <= 0) return std::nullopt;
+  return InwardChord{start, hit->distance};
+}
+
+}  // namespace detail
+}  // namespace mspskel
