@@ -14,6 +14,7 @@
 #include "mspskel/graph/branch_filter.h"
 #include "mspskel/graph/collapsed_arcs.h"
 #include "mspskel/graph/make_curve_skeleton.h"
+#include "mspskel/graph/reach_digits.h"
 #include "mspskel/graph/refine_arcs.h"
 #include "mspskel/graph/restore_cycles.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
@@ -78,6 +79,7 @@ struct ExtractResult {
   CollapsedSkeleton collapsed;  // after branch filtering, if that is on
   BranchFilterResult filter;    // its counts; its skeleton is moved to `collapsed`
   RefinementCounts refinement;
+  Index digits = 0;  // arcs that reach_digits added
   CycleRestoration restoration;
   std::vector<std::pair<std::string, double>> seconds;  // stage, wall seconds
   std::vector<std::string> warnings;

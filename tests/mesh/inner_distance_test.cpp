@@ -1,6 +1,7 @@
 // Distances through the solid: straight where that is free, never shorter, and even along the surface.
 #include "mspskel/mesh/inner_distance.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -88,4 +89,27 @@ TEST_CASE("A component without a point is out of reach") {
   const std::vector<double> distance = inner_distances(s, SurfaceWays(s), solid, from);
   for (Index v = 0; v < s.vertex_count(); ++v)
     CHECK(std::isfinite(distance[v]) == (s.component[v] == s.component[0]));
+}
+
+TEST_CASE("Distances to some vertices only are those of the whole where no way leaves them") {
+  const SurfaceSnapshot s = sample("octoped");
+  const BoundingVolumeHierarchy solid(s);
+  const Vector3 inward = -s.normal[0];
+  const auto hit = solid.first_hit(s.position[0] + 1e-6 * inward, inward);
+  REQUIRE(hit);
+  const Vector3 from = s.position[0] + 0.5 * hit->distance * inward;
+  const std::vector<double> whole = inner_distances(s, SurfaceWays(s), solid, {from});
+  std::vector<double> local(whole.size(), -1.0);
+  std::vector<Index> all, near;
+  for (Index v = 0; v < s.vertex_count(); ++v) {
+    all.push_back(v);
+    if ((s.position[v] - from).norm() < 0.25) near.push_back(v);
+  }
+  inner_distances(s, solid, from, near, local);
+  REQUIRE(near.size() < all.size());
+  for (const Index v : near) CHECK(local[v] >= whole[v] * (1 - 1e-12));
+  CHECK(std::count(local.begin(), local.end(), -1.0) ==
+        static_cast<std::ptrdiff_t>(all.size() - near.size()));
+  inner_distances(s, solid, from, all, local);
+  CHECK(local == whole);
 }

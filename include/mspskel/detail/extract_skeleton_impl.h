@@ -243,7 +243,12 @@ inline ExtractResult extract_skeleton_of_snapshot(SurfaceSnapshot surface, const
   if (result.coarse) detail::carry_over(result, arcs);
   if (input_cocycles) result.cocycles = std::move(*input_cocycles);
   if (options.refinement.enabled) {
-    // Last, on the input itself: centring may pull an arc off a handle that is small beside its step.
+    // On the input itself: coarser surfaces show no digits.
+    result.digits = reach_digits(
+        arcs, shells, solid, find_digits(arcs, shells, solid, options.refinement.limbs, options.execution),
+        options.refinement.centering.step, options.refinement.joint_overlap);
+    clock.lap("digits");
+    // Last, and on the input too: centring may pull an arc off a handle that is small beside its step.
     result.restoration = restore_cycles(arcs, result.surface, solid, result.cocycles);
     if (result.restoration.restored > 0) subdivide(arcs, 1.25 * options.refinement.centering.step);
     if (options.refinement.nodes > 0) {

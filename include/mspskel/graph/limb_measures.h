@@ -46,6 +46,11 @@ inline bool is_limb(const LimbMeasures& m, const LimbOptions& o) {
   return m.slenderness >= o.slenderness && m.depth >= 1.4 * m.half_width;
 }
 
+// A finger or a toe, beside others of a palm.
+inline bool is_digit(const LimbMeasures& m, const LimbOptions& o) {
+  return m.slenderness >= 1.6 * o.slenderness && m.depth >= 1.6 * o.smallest;
+}
+
 // An ear or a horn: a bump rather than a limb, but much smaller than what carries it. Only in a shape that
 // has limbs: measured so, the corners of a block are ears as well.
 inline bool is_ear(const LimbMeasures& m, const LimbOptions& o) {

@@ -79,19 +79,6 @@ inline bool lead_to_target(std::vector<Vector3>& points, const Vector3& target, 
   return points != before;
 }
 
-// Gives a leaf arc the points from its joint to its tip.
-inline void set_leaf_points(ArcGraph& graph, const LeafArc& leaf, std::vector<Vector3> points) {
-  Arc& arc = graph.arcs[leaf.arc];
-  graph.hub_position[leaf.tip] = points.back();
-  if (arc.hub[1] == leaf.joint) std::reverse(points.begin(), points.end());
-  arc.points = std::move(points);
-}
-
-inline std::vector<Vector3> leaf_points(const ArcGraph& graph, const LeafArc& leaf) {
-  const Arc& arc = graph.arcs[leaf.arc];
-  return points_from(arc, arc.hub[1] == leaf.joint ? 1 : 0);
-}
-
 }  // namespace detail
 
 inline Index aim_ends(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,

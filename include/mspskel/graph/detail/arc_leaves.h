@@ -41,6 +41,19 @@ struct ArcLeaves {
   }
 };
 
+// Gives a leaf arc the points from its joint to its tip.
+inline void set_leaf_points(ArcGraph& graph, const LeafArc& leaf, std::vector<Vector3> points) {
+  Arc& arc = graph.arcs[leaf.arc];
+  graph.hub_position[leaf.tip] = points.back();
+  if (arc.hub[1] == leaf.joint) std::reverse(points.begin(), points.end());
+  arc.points = std::move(points);
+}
+
+inline std::vector<Vector3> leaf_points(const ArcGraph& graph, const LeafArc& leaf) {
+  const Arc& arc = graph.arcs[leaf.arc];
+  return points_from(arc, arc.hub[1] == leaf.joint ? 1 : 0);
+}
+
 // For each tip the leaf arc that stands for it, as a place in leaves.leaf, or kNoLeaf: one that has a third
 // of its cap or more. Where several tips or arcs could have each other, those whose ends are nearest do.
 inline std::vector<std::size_t> leaves_of_tips(const ArcGraph& graph, const ArcLeaves& leaves,

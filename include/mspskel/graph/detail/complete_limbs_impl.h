@@ -5,7 +5,7 @@
 
 #include "mspskel/graph/detail/arc_leaves.h"
 #include "mspskel/graph/detail/arc_sections.h"
-#include "mspskel/graph/detail/near_vertices.h"
+#include "mspskel/graph/detail/graph_points.h"
 
 namespace mspskel {
 namespace detail {
@@ -22,13 +22,6 @@ inline constexpr double kCorner = 0.75;
 
 // What has less than this share of the evidence before its way is centred has too little afterwards as well.
 inline constexpr double kDoubt = 0.5;
-
-// A point of the graph: a hub, or an inner point of an arc.
-struct GraphPoint {
-  Index hub = kNone, arc = kNone;
-  std::size_t index = 0;
-  Vector3 position = Vector3::Zero();
-};
 
 class LimbCompletion {
  public:
@@ -170,28 +163,12 @@ class LimbCompletion {
     }
   }
 
-  // The points nearest to x of the graph's pieces in one component of the surface, by their distance.
-  std::vector<std::pair<double, GraphPoint>> nearest_points(const Vector3& x, Index component) const {
-    std::vector<std::pair<double, GraphPoint>> all;
-    for (Index h = 0; h < graph_.hub_count(); ++h)
-      if (graph_.hub_alive[h] && hub_component_[h] == component)
-        all.push_back({(graph_.hub_position[h] - x).norm(), {h, kNone, 0, graph_.hub_position[h]}});
-    for (Index a = 0; a < graph_.arc_count(); ++a)
-      if (graph_.arcs[a].alive && hub_component_[graph_.arcs[a].hub[0]] == component)
-        for (std::size_t i = 1; i + 1 < graph_.arcs[a].points.size(); ++i)
-          all.push_back({(graph_.arcs[a].points[i] - x).norm(), {kNone, a, i, graph_.arcs[a].points[i]}});
-    constexpr std::size_t kSeen = 64;
-    const auto end = all.begin() + static_cast<std::ptrdiff_t>(std::min(kSeen, all.size()));
-    std::partial_sort(all.begin(), end, all.end(),
-                      [](const auto& a, const auto& b) { return a.first < b.first; });
-    all.erase(end, all.end());
-    return all;
-  }
-
   // The way from the skeleton to v: straight from the nearest point that sees v, or through the solid.
   bool find_way(Index v, GraphPoint& start, std::vector<Vector3>& way, bool is_tip) {
     const Vector3& target = surface_.position[v];
-    const auto points = nearest_points(target, surface_.component[v]);
+    const auto own = [&](Index hub) { return hub_component_[hub] == surface_.component[v]; };
+    const auto points =
+        nearest_points(graph_, target, own, [&](Index arc) { return own(graph_.arcs[arc].hub[0]); });
     // Centring seldom halves the ball, so what lies that close to it is not worth a way.
     if (points.empty()) return false;
     if (!is_tip && outside_[v] < 0.5 * kCorner * solid_.distance(points.front().second.position))
@@ -223,18 +200,7 @@ class LimbCompletion {
     if (!find_way(v, start, way, is_tip)) return false;
     if (!is_tip && !deserves_arc(way, v, kDoubt)) return false;
     // A few rounds of centring with the start held show the limb's true width.
-    ArcGraph alone;
-    alone.add_hub(way.front());
-    alone.add_hub(way.back());
-    alone.arcs.push_back({{0, 1}, way, true});
-    CenteringOptions few;
-    few.step = step_;
-    few.rounds = 2;
-    few.rays = 16;
-    Execution one_thread;
-    one_thread.threads = 1;
-    center_arcs(alone, solid_, few, one_thread);
-    way = alone.arcs[0].points;
+    way = centred_alone(way, solid_, step_);
     if (!is_tip && !deserves_arc(way, v, 1.0)) return false;
     if (solid_.segment_crosses(start.position, way.front())) return false;
     way.insert(way.begin(), start.position);
@@ -267,17 +233,10 @@ class LimbCompletion {
     return m;
   }
 
-  Index hub_at(const GraphPoint& p) {
-    if (p.hub != kNone) return p.hub;
-    const Index hub = split_arc(graph_, p.arc, p.index);
-    give_near_vertices(graph_, surface_, p.arc, graph_.arc_count() - 1);
-    return hub;
-  }
-
   // Vertices of other components are none of the limb's business, however near they lie.
   void add(const GraphPoint& start, const std::vector<Vector3>& way, Index component) {
     Arc limb;
-    limb.hub = {hub_at(start), graph_.add_hub(way.back())};
+    limb.hub = {hub_at(graph_, surface_, start), graph_.add_hub(way.back())};
     hub_component_.resize(graph_.hub_position.size(), component);
     limb.points = way;
     const Index added = graph_.arc_count();

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "mspskel/graph/detail/growing_parts.h"
 #include "mspskel/mesh/inner_distance.h"
 
 namespace mspskel {
@@ -26,7 +27,7 @@ inline constexpr double kLeastThinTipDepth = 3.4;
 // So much of a limb's end, in half widths, has its mean in the middle of it, on flat ends as well.
 inline constexpr double kEnd = 0.75;
 
-// The components of the surface beyond a distance that falls, and the limbs found when they meet.
+// The limbs that the parts beyond a distance stand for when they meet.
 class LimbTipSearch {
  public:
   LimbTipSearch(const SurfaceSnapshot& surface, const VertexSlices& slices, const LimbOptions& options,
@@ -35,20 +36,17 @@ class LimbTipSearch {
         slices_(slices),
         options_(options),
         distance_(distance),
-        parent_(surface.position.size(), kNone),
-        part_(surface.position.size()),
         walked_(surface.position.size(), 0) {}
 
   std::vector<LimbTip> run() {
-    std::vector<Index> order;
+    std::vector<Index> reached;
     for (Index v = 0; v < surface_.vertex_count(); ++v)
-      if (std::isfinite(distance_[v])) order.push_back(v);
-    std::sort(order.begin(), order.end(), [&](Index a, Index b) {
-      return distance_[a] != distance_[b] ? distance_[a] > distance_[b] : a < b;
+      if (std::isfinite(distance_[v])) reached.push_back(v);
+    GrowingParts<Notes> parts(surface_, distance_, std::move(reached));
+    parts.grow([&](Part& high, Part& low, Index saddle) { meet(high, low, saddle); }, [](Part&, Index) {});
+    parts.for_each_left([&](Part& part) {
+      if (part.notes.limb) limbs_.push_back(std::move(*part.notes.limb));
     });
-    for (const Index v : order) add(v);
-    for (const Index v : order)
-      if (parent_[v] == v && part_[v].limb) limbs_.push_back(std::move(*part_[v].limb));
     const std::vector<bool> limbed = components_with_limbs(surface_, limbs_);
     for (LimbTip& tip : ears_)
       if (limbed[surface_.component[tip.vertex]]) limbs_.push_back(std::move(tip));
@@ -56,55 +54,28 @@ class LimbTipSearch {
   }
 
  private:
-  struct Part {
-    Index top = kNone;
-    std::optional<LimbTip> limb, ear;  // its top, measured where it first met one
-    std::vector<Index> vertices;
+  struct Notes {
+    std::optional<LimbTip> limb, ear;  // the part's top, measured where it first met one
   };
+  using Part = GrowingParts<Notes>::Part;
 
-  Index root(Index v) {
-    while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
-    return v;
-  }
-
-  void add(Index v) {
-    parent_[v] = v;
-    part_[v].top = v;
-    std::vector<Index> roots;
-    for_each_neighbour(surface_, v, [&](Index w) {
-      if (parent_[w] == kNone || w == v) return;
-      const Index r = root(w);
-      if (std::find(roots.begin(), roots.end(), r) == roots.end()) roots.push_back(r);
-    });
-    std::sort(roots.begin(), roots.end(),
-              [&](Index a, Index b) { return distance_[part_[a].top] > distance_[part_[b].top]; });
-    for (std::size_t i = 1; i < roots.size(); ++i) meet(roots[0], roots[i], v);
-    const Index into = roots.empty() ? v : roots[0];
-    part_[into].vertices.push_back(v);
-    parent_[v] = into;
-  }
-
-  // At the saddle v the part with the higher top takes the other one. A part in which limbs have met is one.
-  void meet(Index high, Index low, Index v) {
-    Part &a = part_[high], &b = part_[low];
-    if (std::optional<LimbTip> tip = measure(b, v)) {
-      if (b.limb || is_limb(tip->measures, options_)) {
-        // Of such a part only what was its top's own before is its end.
-        if (b.limb) {
-          tip->cap = b.limb->cap;
-          tip->target = b.limb->target;
-        }
-        limbs_.push_back(std::move(*tip));
-        if (!a.limb) a.limb = measure(a, v);
-      } else if (b.ear || is_ear(tip->measures, options_)) {
-        ears_.push_back(b.ear ? std::move(*b.ear) : std::move(*tip));
-        if (!a.limb && !a.ear) a.ear = measure(a, v);
+  // A part in which limbs have met is one.
+  void meet(Part& high, Part& low, Index saddle) {
+    Notes &a = high.notes, &b = low.notes;
+    std::optional<LimbTip> tip = measure(low, saddle);
+    if (!tip) return;
+    if (b.limb || is_limb(tip->measures, options_)) {
+      // Of such a part only what was its top's own before is its end.
+      if (b.limb) {
+        tip->cap = b.limb->cap;
+        tip->target = b.limb->target;
       }
+      limbs_.push_back(std::move(*tip));
+      if (!a.limb) a.limb = measure(high, saddle);
+    } else if (b.ear || is_ear(tip->measures, options_)) {
+      ears_.push_back(b.ear ? std::move(*b.ear) : std::move(*tip));
+      if (!a.limb && !a.ear) a.ear = measure(high, saddle);
     }
-    if (b.vertices.size() > a.vertices.size()) std::swap(a.vertices, b.vertices);
-    a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
-    std::vector<Index>().swap(b.vertices);
-    parent_[low] = high;
   }
 
   // The part as a limb that ends at the saddle; nothing if it has no slices or is too shallow.
@@ -171,8 +142,6 @@ class LimbTipSearch {
   const VertexSlices& slices_;
   const LimbOptions& options_;
   const std::vector<double>& distance_;
-  std::vector<Index> parent_;  // kNone: not yet beyond
-  std::vector<Part> part_;     // of each root
   std::vector<Index> walked_;  // the last walk that came by
   Index walk_ = 0;
   std::vector<LimbTip> limbs_, ears_;

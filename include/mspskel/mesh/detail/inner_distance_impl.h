@@ -25,6 +25,45 @@ inline double across_opposite_edge(const SurfaceSnapshot& surface, Index h, Inde
   return std::hypot(z_along - v_along, whole);
 }
 
+// Dijkstra from the given vertices, whose distances are known, over those that are open; edge(h) and
+// across(h) are the lengths of the ways that begin at the half-edge h.
+template <class Edge, class Across, class Open>
+void extend_ways(const SurfaceSnapshot& surface, const Edge& edge, const Across& across, const Open& open,
+                 const std::vector<Index>& given, std::vector<double>& distance) {
+  using Entry = std::pair<double, Index>;
+  std::vector<Entry> queue;
+  const auto offer = [&](Index v, double value) {
+    if (!open(v) || !(value < distance[v])) return;
+    distance[v] = value;
+    queue.push_back({value, v});
+    std::push_heap(queue.begin(), queue.end(), std::greater<Entry>());
+  };
+  const auto visit = [&](Index v) {
+    const Index first = surface.vertex_halfedge[v];
+    if (first == kNone) return;
+    Index h = first;
+    do {
+      offer(surface.target(h), distance[v] + edge(h));
+      offer(surface.apex(surface.twin[SurfaceSnapshot::next(h)]), distance[v] + across(h));
+      h = surface.next_outgoing(h);
+    } while (h != first);
+  };
+  for (const Index v : given) visit(v);
+  while (!queue.empty()) {
+    std::pop_heap(queue.begin(), queue.end(), std::greater<Entry>());
+    const auto [value, v] = queue.back();
+    queue.pop_back();
+    if (value == distance[v]) visit(v);
+  }
+}
+
+// Whether the straight way is free, but for the target's own faces.
+inline bool straight_way_is_free(const BoundingVolumeHierarchy& solid, const Vector3& from,
+                                 const Vector3& to) {
+  constexpr double kShort = 0.995;
+  return !solid.segment_crosses(from, from + kShort * (to - from));
+}
+
 }  // namespace detail
 
 inline SurfaceWays::SurfaceWays(const SurfaceSnapshot& surface) : surface_(surface) {
@@ -36,41 +75,18 @@ inline SurfaceWays::SurfaceWays(const SurfaceSnapshot& surface) : surface_(surfa
 }
 
 inline void SurfaceWays::extend(const std::vector<std::uint8_t>& fixed, std::vector<double>& distance) const {
-  using Entry = std::pair<double, Index>;
-  std::vector<Entry> queue;
-  const auto offer = [&](Index v, double value) {
-    if (fixed[v] || !(value < distance[v])) return;
-    distance[v] = value;
-    queue.push_back({value, v});
-    std::push_heap(queue.begin(), queue.end(), std::greater<Entry>());
-  };
-  const auto visit = [&](Index v) {
-    const Index first = surface_.vertex_halfedge[v];
-    if (first == kNone) return;
-    Index h = first;
-    do {
-      offer(surface_.target(h), distance[v] + edge_[h]);
-      offer(surface_.apex(surface_.twin[SurfaceSnapshot::next(h)]), distance[v] + across_[h]);
-      h = surface_.next_outgoing(h);
-    } while (h != first);
-  };
   std::vector<Index> given;
   for (Index v = 0; v < surface_.vertex_count(); ++v)
     if (std::isfinite(distance[v])) given.push_back(v);
-  for (const Index v : given) visit(v);
-  while (!queue.empty()) {
-    std::pop_heap(queue.begin(), queue.end(), std::greater<Entry>());
-    const auto [value, v] = queue.back();
-    queue.pop_back();
-    if (value == distance[v]) visit(v);
-  }
+  detail::extend_ways(
+      surface_, [&](Index h) { return edge_[h]; }, [&](Index h) { return across_[h]; },
+      [&](Index v) { return !fixed[v]; }, given, distance);
 }
 
 inline std::vector<double> inner_distances(const SurfaceSnapshot& surface, const SurfaceWays& ways,
                                            const BoundingVolumeHierarchy& solid,
                                            const std::vector<std::optional<Vector3>>& from,
                                            const Execution& execution) {
-  constexpr double kShort = 0.995;  // a vertex's own faces are no obstacle
   std::vector<double> distance(surface.position.size(), std::numeric_limits<double>::infinity());
   std::vector<std::uint8_t> seen(surface.position.size(), 0);
   parallel_for(
@@ -78,13 +94,33 @@ inline std::vector<double> inner_distances(const SurfaceSnapshot& surface, const
       [&](Index v, int) {
         if (surface.vertex_halfedge[v] == kNone || !from[surface.component[v]]) return;
         const Vector3& start = *from[surface.component[v]];
-        const Vector3 way = surface.position[v] - start;
-        if (solid.segment_crosses(start, start + kShort * way)) return;
-        distance[v] = way.norm();
+        if (!detail::straight_way_is_free(solid, start, surface.position[v])) return;
+        distance[v] = (surface.position[v] - start).norm();
         seen[v] = 1;
       });
   ways.extend(seen, distance);
   return distance;
+}
+
+inline void inner_distances(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
+                            const Vector3& from, const std::vector<Index>& vertices,
+                            std::vector<double>& distance) {
+  std::vector<std::uint8_t> open(surface.position.size(), 0);
+  std::vector<Index> seen;
+  for (const Index v : vertices) {
+    const bool free = detail::straight_way_is_free(solid, from, surface.position[v]);
+    distance[v] = free ? (surface.position[v] - from).norm() : std::numeric_limits<double>::infinity();
+    open[v] = !free;
+    if (free) seen.push_back(v);
+  }
+  const auto edge = [&](Index h) {
+    return (surface.position[surface.target(h)] - surface.position[surface.origin[h]]).norm();
+  };
+  const auto across = [&](Index h) {
+    return detail::across_opposite_edge(surface, h, surface.apex(surface.twin[SurfaceSnapshot::next(h)]));
+  };
+  detail::extend_ways(
+      surface, edge, across, [&](Index v) { return open[v] != 0; }, seen, distance);
 }
 
 }  // namespace mspskel
