@@ -39,8 +39,8 @@ std::vector<double> inner_distances(const SurfaceSnapshot& surface, const Surfac
                                     const Execution& execution = {});
 
 // The same from one point to the given vertices only, by ways among them. `distance` has a place for every
-// vertex of the surface; those of the others are left alone. Vertices that no way leads to get infinity.
-// Cost: a segment query a vertex, O(surface) once.
+// vertex of the surface; those of the others have to be minus infinity, and stay so. Cost: a segment query a
+// vertex, O(vertices log vertices).
 void inner_distances(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
                      const Vector3& from, const std::vector<Index>& vertices, std::vector<double>& distance);
 

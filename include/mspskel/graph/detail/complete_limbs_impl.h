@@ -58,7 +58,7 @@ class LimbCompletion {
           outside_[v] = outside;
           covered[v] = outside <= radius;
         });
-    find_components();
+    hub_component_ = components_of_pieces(graph, surface);
     find_searched(covered);
   }
 
@@ -139,28 +139,6 @@ class LimbCompletion {
     const double reach = outside_[v];
     for (std::size_t w = 0; w < outside_.size(); ++w)
       if ((surface_.position[w] - surface_.position[v]).norm() <= reach) outside_[w] = 0;
-  }
-
-  // The component of the surface that the piece of each hub stands for: that of the vertices on the piece.
-  void find_components() {
-    hub_component_.assign(graph_.hub_position.size(), kNone);
-    for (Index v = 0; v < surface_.vertex_count(); ++v) {
-      if (graph_.hub_of_vertex[v] != kNone) hub_component_[graph_.hub_of_vertex[v]] = surface_.component[v];
-      if (graph_.arc_of_vertex[v] == kNone) continue;
-      for (const Index hub : graph_.arcs[graph_.arc_of_vertex[v]].hub)
-        hub_component_[hub] = surface_.component[v];
-    }
-    for (bool changed = true; changed;) {
-      changed = false;
-      for (const Arc& arc : graph_.arcs)
-        for (const int end : {0, 1}) {
-          if (!arc.alive || hub_component_[arc.hub[end]] != kNone ||
-              hub_component_[arc.hub[1 - end]] == kNone)
-            continue;
-          hub_component_[arc.hub[end]] = hub_component_[arc.hub[1 - end]];
-          changed = true;
-        }
-    }
   }
 
   // The way from the skeleton to v: straight from the nearest point that sees v, or through the solid.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -54,23 +56,22 @@ class DigitSearch {
       : surface_(surface),
         solid_(solid),
         options_(options),
-        distance_(surface.position.size(), 0.0),
-        place_(surface.position.size(), Place::kElsewhere) {}
+        distance_(surface.position.size(), kElsewhere),
+        taken_(surface.position.size(), 0),
+        place_(surface.position.size(), kNone) {}
 
   // The digits on the surface beyond the palm, as far as it hangs together with the vertex `tip`; none if
   // they are fewer than three.
   std::vector<Digit> run(const Palm& palm, Index tip) {
-    constexpr std::size_t kFewest = 3;
     digits_.clear();
     const std::vector<Index> region = surface_beyond(palm, tip);
-    inner_distances(surface_, solid_, palm.centre, region, distance_);
-    GrowingParts<Notes> parts(surface_, distance_, region);
-    parts.grow([&](Part& high, Part& low, Index) { meet(high, low); },
-               [&](Part& part, Index v) { join(part, v); });
-    parts.for_each_left([&](Part& part) { add_if_digit(part); });
-    for (const Index v : region) place_[v] = Place::kElsewhere;
-    if (digits_.size() < kFewest) return {};
-    for (Digit& digit : digits_) set_way(digit);
+    // By straight ways first, which cost no queries: most palms have nothing like digits.
+    if (find(region, 0.5)) {
+      inner_distances(surface_, solid_, palm.centre, region, distance_);
+      if (find(region, 1.0))
+        for (Digit& digit : digits_) set_way(digit);
+    }
+    for (const Index v : region) distance_[v] = kElsewhere;
     digits_.erase(
         std::remove_if(digits_.begin(), digits_.end(), [](const Digit& digit) { return digit.way.empty(); }),
         digits_.end());
@@ -78,7 +79,7 @@ class DigitSearch {
   }
 
  private:
-  enum class Place : std::uint8_t { kElsewhere, kBeyond, kDigit };
+  static constexpr double kElsewhere = -std::numeric_limits<double>::infinity();
 
   struct Notes {
     double area = 0;
@@ -87,16 +88,17 @@ class DigitSearch {
   };
   using Part = GrowingParts<Notes>::Part;
 
-  // The plane lies behind the palm's middle for the sake of thumbs.
+  // With the straight ways for distances. The plane lies behind the palm's middle for the sake of thumbs.
   std::vector<Index> surface_beyond(const Palm& palm, Index tip) {
     constexpr double kBehind = 0.5;  // radii
-    const double reach = 1.5 * palm.reach + 3 * palm.radius;
+    const double reach = 1.2 * std::max(palm.reach, 8 * options_.smallest) + 2 * palm.radius;
     std::vector<Index> region;
     const auto add = [&](Index v) {
+      if (distance_[v] != kElsewhere) return;
       const Vector3 x = surface_.position[v] - palm.centre;
-      if (place_[v] != Place::kElsewhere || x.norm() > reach || x.dot(palm.onward) < -kBehind * palm.radius)
-        return;
-      place_[v] = Place::kBeyond;
+      const double straight = x.norm();
+      if (straight > reach || x.dot(palm.onward) < -kBehind * palm.radius) return;
+      distance_[v] = straight;
       region.push_back(v);
     };
     add(tip);
@@ -104,22 +106,35 @@ class DigitSearch {
     return region;
   }
 
-  void join(Part& part, Index v) {
+  // Whether there are three digits or more, of so much of the length and the slenderness that is asked.
+  bool find(const std::vector<Index>& region, double share) {
+    constexpr std::size_t kFewest = 3;
+    LimbOptions least = options_;
+    least.slenderness *= share;
+    least.smallest *= share;
+    digits_.clear();
+    GrowingParts<Notes> parts(surface_, distance_, region, place_);
+    parts.grow(
+        [&](Part& high, Part& low, Index) {
+          high.notes.ended = add_if_digit(low) || low.notes.ended || high.notes.ended;
+          high.notes.area += low.notes.area;
+        },
+        [&](Part& part, Index v) { join(part, v, least); });
+    parts.for_each_left([&](Part& part) { add_if_digit(part); });
+    for (const Index v : region) taken_[v] = 0;
+    return digits_.size() >= kFewest;
+  }
+
+  void join(Part& part, Index v, const LimbOptions& least) {
     Notes& notes = part.notes;
     notes.area += surface_.vertex_area[v];
     for_each_neighbour(surface_, v,
-                       [&](Index w) { notes.ended = notes.ended || place_[w] == Place::kElsewhere; });
+                       [&](Index w) { notes.ended = notes.ended || distance_[w] == kElsewhere; });
     if (notes.ended) return;
     LimbMeasures m;
     m.depth = distance_[part.top] - distance_[v];
     m.slenderness = 2 * kPi * m.depth * m.depth / notes.area;
-    if (m.slenderness > notes.measures.slenderness && is_digit(m, options_)) notes.measures = m;
-  }
-
-  void meet(Part& high, Part& low) {
-    const bool digit = add_if_digit(low);
-    high.notes.ended = digit || low.notes.ended || high.notes.ended;
-    high.notes.area += low.notes.area;
+    if (m.slenderness > notes.measures.slenderness && is_digit(m, least)) notes.measures = m;
   }
 
   bool add_if_digit(const Part& part) {
@@ -131,8 +146,8 @@ class DigitSearch {
     digit.radius = m.depth / m.slenderness;
     const double base = distance_[part.top] - digit.length;
     const auto add = [&](Index v) {
-      if (place_[v] != Place::kBeyond || distance_[v] < base) return;
-      place_[v] = Place::kDigit;
+      if (taken_[v] || distance_[v] < base) return;
+      taken_[v] = 1;
       digit.vertices.push_back(v);
     };
     add(part.top);
@@ -169,8 +184,9 @@ class DigitSearch {
   const SurfaceSnapshot& surface_;
   const BoundingVolumeHierarchy& solid_;
   const LimbOptions& options_;
-  std::vector<double> distance_;  // from the palm, of the region's vertices
-  std::vector<Place> place_;
+  std::vector<double> distance_;     // from the palm; kElsewhere but for the region
+  std::vector<std::uint8_t> taken_;  // by a digit
+  std::vector<Index> place_;         // scratch memory of GrowingParts
   std::vector<Digit> digits_;
 };
 

@@ -7,6 +7,7 @@
 
 #include "mspskel/graph/center_arcs.h"
 #include "mspskel/graph/detail/near_vertices.h"
+#include "mspskel/graph/route_inside.h"
 
 namespace mspskel {
 namespace detail {
@@ -17,6 +18,22 @@ struct GraphPoint {
   std::size_t index = 0;
   Vector3 position = Vector3::Zero();
 };
+
+// Per hub the component of the surface that its piece of the graph stands for: that of the vertices on the
+// piece; kNone where there are none.
+inline std::vector<Index> components_of_pieces(const ArcGraph& graph, const SurfaceSnapshot& surface) {
+  std::vector<Index> component = hub_components(graph, surface);
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const Arc& arc : graph.arcs)
+      for (const int end : {0, 1}) {
+        if (!arc.alive || component[arc.hub[end]] != kNone || component[arc.hub[1 - end]] == kNone) continue;
+        component[arc.hub[end]] = component[arc.hub[1 - end]];
+        changed = true;
+      }
+  }
+  return component;
+}
 
 // The 64 points nearest to x of the accepted hubs and arcs, by their distance.
 template <class AcceptHub, class AcceptArc>

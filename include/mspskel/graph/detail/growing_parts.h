@@ -22,19 +22,24 @@ class GrowingParts {
     std::vector<Index> vertices;
   };
 
+  // `place` is scratch memory for every vertex of the surface: kNone, and so again when this goes.
   GrowingParts(const SurfaceSnapshot& surface, const std::vector<double>& distance,
-               std::vector<Index> vertices)
-      : surface_(surface), distance_(distance), order_(std::move(vertices)) {
+               std::vector<Index> vertices, std::vector<Index>& place)
+      : surface_(surface), distance_(distance), order_(std::move(vertices)), place_(place) {
     std::sort(order_.begin(), order_.end(), [&](Index a, Index b) {
       return distance_[a] != distance_[b] ? distance_[a] > distance_[b] : a < b;
     });
     parent_.resize(order_.size());
     part_.resize(order_.size());
-    place_.assign(surface.position.size(), kNone);
   }
+  ~GrowingParts() {
+    for (const Index v : order_) place_[v] = kNone;
+  }
+  GrowingParts(const GrowingParts&) = delete;
+  GrowingParts& operator=(const GrowingParts&) = delete;
 
   // Calls meet(high, low, saddle) before the part `high` takes the part `low`, and join(part, vertex) after
-  // the vertex has joined the part. Cost: O(vertices log vertices), O(surface) once.
+  // the vertex has joined the part. Cost: O(vertices log vertices).
   template <class Meet, class Join>
   void grow(Meet meet, Join join) {
     for (std::size_t i = 0; i < order_.size(); ++i) join(add(static_cast<Index>(i), meet), order_[i]);
@@ -82,7 +87,7 @@ class GrowingParts {
   const SurfaceSnapshot& surface_;
   const std::vector<double>& distance_;
   std::vector<Index> order_;   // by falling distance
-  std::vector<Index> place_;   // of each vertex in that order; kNone: not yet beyond
+  std::vector<Index>& place_;  // of each vertex in that order; kNone: not yet beyond
   std::vector<Index> parent_;  // of each place
   std::vector<Part> part_;     // of each root
   std::vector<Index> roots_;

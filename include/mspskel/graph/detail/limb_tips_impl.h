@@ -39,10 +39,10 @@ class LimbTipSearch {
         walked_(surface.position.size(), 0) {}
 
   std::vector<LimbTip> run() {
-    std::vector<Index> reached;
+    std::vector<Index> reached, place(surface_.position.size(), kNone);
     for (Index v = 0; v < surface_.vertex_count(); ++v)
       if (std::isfinite(distance_[v])) reached.push_back(v);
-    GrowingParts<Notes> parts(surface_, distance_, std::move(reached));
+    GrowingParts<Notes> parts(surface_, distance_, std::move(reached), place);
     parts.grow([&](Part& high, Part& low, Index saddle) { meet(high, low, saddle); }, [](Part&, Index) {});
     parts.for_each_left([&](Part& part) {
       if (part.notes.limb) limbs_.push_back(std::move(*part.notes.limb));

@@ -21,7 +21,12 @@ class DigitArcs {
  public:
   DigitArcs(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
             const std::vector<Digit>& digits, double step)
-      : graph_(graph), surface_(surface), solid_(solid), digits_(digits), step_(step) {}
+      : graph_(graph),
+        surface_(surface),
+        solid_(solid),
+        digits_(digits),
+        step_(step),
+        component_(components_of_pieces(graph, surface)) {}
 
   Index run() {
     const ArcLeaves leaves(graph_, graph_.incidence());
@@ -45,8 +50,10 @@ class DigitArcs {
     std::vector<std::tuple<double, std::size_t, std::size_t>> pairs;
     for (std::size_t i = 0; i < digits_.size(); ++i)
       for (std::size_t k = 0; k < leaves.leaf.size(); ++k) {
-        const double distance = (graph_.hub_position[leaves.leaf[k].tip] - digits_[i].way.back()).norm();
-        if (distance < kNear * digits_[i].length) pairs.emplace_back(distance, i, k);
+        const Index tip = leaves.leaf[k].tip;
+        const double distance = (graph_.hub_position[tip] - digits_[i].way.back()).norm();
+        if (component_[tip] == component(digits_[i]) && distance < kNear * digits_[i].length)
+          pairs.emplace_back(distance, i, k);
       }
     std::sort(pairs.begin(), pairs.end());
     std::vector<std::size_t> leaf(digits_.size(), kNoLeaf);
@@ -78,12 +85,13 @@ class DigitArcs {
   }
 
   bool add_arc(const Digit& digit) {
-    const auto is_digit_tip = [&](Index hub) {
-      return std::find(digit_tips_.begin(), digit_tips_.end(), hub) != digit_tips_.end();
+    // Other digits carry none.
+    const auto carries = [&](Index hub) {
+      return component_[hub] == component(digit) &&
+             std::find(digit_tips_.begin(), digit_tips_.end(), hub) == digit_tips_.end();
     };
-    const auto starts = nearest_points(
-        graph_, digit.way.front(), [&](Index hub) { return !is_digit_tip(hub); },
-        [&](Index arc) { return !is_digit_tip(graph_.arcs[arc].hub[1]); });
+    const auto starts = nearest_points(graph_, digit.way.front(), carries,
+                                       [&](Index arc) { return carries(graph_.arcs[arc].hub[1]); });
     for (const bool behind : {true, false})
       for (std::size_t k = 0; k < digit.way.size(); ++k)
         for (const auto& [distance, start] : starts) {
@@ -101,11 +109,14 @@ class DigitArcs {
   void add(const Digit& digit, const GraphPoint& start, std::vector<Vector3> line) {
     Arc arc;
     arc.hub = {hub_at(graph_, surface_, start), graph_.add_hub(line.back())};
+    component_.resize(graph_.hub_position.size(), component(digit));
     arc.points = std::move(line);
     digit_tips_.push_back(arc.hub[1]);
     give_vertices(digit, graph_.arc_count());
     graph_.arcs.push_back(std::move(arc));
   }
+
+  Index component(const Digit& digit) const { return surface_.component[digit.vertices.front()]; }
 
   void give_vertices(const Digit& digit, Index arc) {
     for (const Index v : digit.vertices) {
@@ -155,6 +166,7 @@ class DigitArcs {
   const BoundingVolumeHierarchy& solid_;
   const std::vector<Digit>& digits_;
   double step_;
+  std::vector<Index> component_;   // of each hub
   std::vector<Index> digit_tips_;  // hubs at the ends of the arcs added
 };
 

@@ -105,12 +105,10 @@ inline std::vector<double> inner_distances(const SurfaceSnapshot& surface, const
 inline void inner_distances(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
                             const Vector3& from, const std::vector<Index>& vertices,
                             std::vector<double>& distance) {
-  std::vector<std::uint8_t> open(surface.position.size(), 0);
   std::vector<Index> seen;
   for (const Index v : vertices) {
     const bool free = detail::straight_way_is_free(solid, from, surface.position[v]);
     distance[v] = free ? (surface.position[v] - from).norm() : std::numeric_limits<double>::infinity();
-    open[v] = !free;
     if (free) seen.push_back(v);
   }
   const auto edge = [&](Index h) {
@@ -120,7 +118,7 @@ inline void inner_distances(const SurfaceSnapshot& surface, const BoundingVolume
     return detail::across_opposite_edge(surface, h, surface.apex(surface.twin[SurfaceSnapshot::next(h)]));
   };
   detail::extend_ways(
-      surface, edge, across, [&](Index v) { return open[v] != 0; }, seen, distance);
+      surface, edge, across, [](Index) { return true; }, seen, distance);
 }
 
 }  // namespace mspskel
