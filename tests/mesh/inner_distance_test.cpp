@@ -16,6 +16,14 @@ namespace {
 
 SurfaceSnapshot sample(const std::string& name) { return make_snapshot(to_mesh(make_sample(name, {}))); }
 
+// Halfway through the solid from vertex 0.
+Vector3 beneath_first_vertex(const SurfaceSnapshot& s, const BoundingVolumeHierarchy& solid) {
+  const Vector3 inward = -s.normal[0];
+  const auto hit = solid.first_hit(s.position[0] + 1e-6 * inward, inward);
+  REQUIRE(hit);
+  return s.position[0] + 0.5 * hit->distance * inward;
+}
+
 }  // namespace
 
 TEST_CASE("In a ball every way from inside is straight") {
@@ -31,10 +39,7 @@ TEST_CASE("Inner distances are no shorter than the straight way and grow no fast
   for (const std::string name : {"torus", "y-tube", "octoped"}) {
     const SurfaceSnapshot s = sample(name);
     const BoundingVolumeHierarchy solid(s);
-    const Vector3 inward = -s.normal[0];
-    const auto hit = solid.first_hit(s.position[0] + 1e-6 * inward, inward);
-    REQUIRE(hit);
-    const Vector3 from = s.position[0] + 0.5 * hit->distance * inward;
+    const Vector3 from = beneath_first_vertex(s, solid);
     const std::vector<double> distance = inner_distances(s, SurfaceWays(s), solid, {from});
     for (Index v = 0; v < s.vertex_count(); ++v) {
       INFO(name << ", vertex " << v);
@@ -94,10 +99,7 @@ TEST_CASE("A component without a point is out of reach") {
 TEST_CASE("Distances to some vertices only are those of the whole where no way leaves them") {
   const SurfaceSnapshot s = sample("octoped");
   const BoundingVolumeHierarchy solid(s);
-  const Vector3 inward = -s.normal[0];
-  const auto hit = solid.first_hit(s.position[0] + 1e-6 * inward, inward);
-  REQUIRE(hit);
-  const Vector3 from = s.position[0] + 0.5 * hit->distance * inward;
+  const Vector3 from = beneath_first_vertex(s, solid);
   const std::vector<double> whole = inner_distances(s, SurfaceWays(s), solid, {from});
   const double other = -std::numeric_limits<double>::infinity();
   std::vector<double> local(whole.size(), other);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "mspskel/graph/arc_graph.h"
@@ -54,6 +55,21 @@ inline std::vector<Vector3> leaf_points(const ArcGraph& graph, const LeafArc& le
   return points_from(arc, arc.hub[1] == leaf.joint ? 1 : 0);
 }
 
+// Pairs (distance, tip, leaf) of what could have each other: for each tip the place of the leaf that it gets,
+// or kNoLeaf. The nearest come first, and each tip and leaf has one at most.
+inline std::vector<std::size_t> nearest_pairs(std::vector<std::tuple<double, std::size_t, std::size_t>> pairs,
+                                              std::size_t tip_count, std::size_t leaf_count) {
+  std::sort(pairs.begin(), pairs.end());
+  std::vector<std::size_t> leaf_of_tip(tip_count, kNoLeaf);
+  std::vector<bool> taken(leaf_count, false);
+  for (const auto& [distance, t, i] : pairs) {
+    if (leaf_of_tip[t] != kNoLeaf || taken[i]) continue;
+    leaf_of_tip[t] = i;
+    taken[i] = true;
+  }
+  return leaf_of_tip;
+}
+
 // For each tip the leaf arc that stands for it, as a place in leaves.leaf, or kNoLeaf: one that has a third
 // of its cap or more. Where several tips or arcs could have each other, those whose ends are nearest do.
 inline std::vector<std::size_t> leaves_of_tips(const ArcGraph& graph, const ArcLeaves& leaves,
@@ -72,15 +88,7 @@ inline std::vector<std::size_t> leaves_of_tips(const ArcGraph& graph, const ArcL
       if (static_cast<double>(count[i]) >= kShare * static_cast<double>(tips[t].cap.size()))
         pairs.emplace_back((graph.hub_position[leaves.leaf[i].tip] - tips[t].target).norm(), t, i);
   }
-  std::sort(pairs.begin(), pairs.end());
-  std::vector<std::size_t> leaf_of_tip(tips.size(), kNoLeaf);
-  std::vector<bool> taken(leaves.leaf.size(), false);
-  for (const auto& [distance, t, i] : pairs) {
-    if (leaf_of_tip[t] != kNoLeaf || taken[i]) continue;
-    leaf_of_tip[t] = i;
-    taken[i] = true;
-  }
-  return leaf_of_tip;
+  return nearest_pairs(std::move(pairs), tips.size(), leaves.leaf.size());
 }
 
 }  // namespace detail

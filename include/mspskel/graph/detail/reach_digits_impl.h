@@ -55,15 +55,7 @@ class DigitArcs {
         if (component_[tip] == component(digits_[i]) && distance < kNear * digits_[i].length)
           pairs.emplace_back(distance, i, k);
       }
-    std::sort(pairs.begin(), pairs.end());
-    std::vector<std::size_t> leaf(digits_.size(), kNoLeaf);
-    std::vector<bool> taken(leaves.leaf.size(), false);
-    for (const auto& [distance, i, k] : pairs) {
-      if (leaf[i] != kNoLeaf || taken[k]) continue;
-      leaf[i] = k;
-      taken[k] = true;
-    }
-    return leaf;
+    return nearest_pairs(std::move(pairs), digits_.size(), leaves.leaf.size());
   }
 
   // A leaf arc that ends before the digit's end goes there from the last of its points that allow it.
