@@ -42,6 +42,14 @@ struct Stages {
     error = carried_over(coherent.error, from, 1.0);
     input_slices = carried_over(slices, from);
     input_cocycles = compute_volume_cocycles(input, slice_candidates(input_slices), options.cocycles);
+    with_digits = refined;
+    lead_into_digits(with_digits, {});
+  }
+
+  Index lead_into_digits(ArcGraph& arcs, const Execution& execution) const {
+    return reach_digits(arcs, input, solid,
+                        find_digits(arcs, input, solid, options.refinement.limbs, execution),
+                        options.refinement.centering.step, options.refinement.joint_overlap);
   }
 
   ExtractOptions options = default_options();
@@ -55,7 +63,7 @@ struct Stages {
   SkeletonMesh points, coherent;
   VolumeCocycles cocycles, input_cocycles;
   CollapsedSkeleton collapsed;
-  ArcGraph graph, refined;
+  ArcGraph graph, refined, with_digits;
   std::vector<LimbTip> tips;
   std::vector<double> perimeter, error;  // per input vertex
 };
@@ -139,10 +147,19 @@ void arcs(benchmark::State& state, const Stages& s, const Execution& execution) 
   state.counters["arcs"] = s.graph.arc_count();
 }
 
+void digits(benchmark::State& state, const Stages& s, const Execution& execution) {
+  Index added = 0;
+  for (auto _ : state) {
+    ArcGraph graph = s.refined;
+    added = s.lead_into_digits(graph, execution);
+  }
+  state.counters["added"] = added;
+}
+
 void result(benchmark::State& state, const Stages& s, const Execution& execution) {
   CurveSkeleton skeleton;
   for (auto _ : state) {
-    ArcGraph graph = s.refined;
+    ArcGraph graph = s.with_digits;
     restore_cycles(graph, s.input, s.solid, s.input_cocycles);
     skeleton = make_curve_skeleton(graph, s.input, s.solid, s.perimeter, s.error, execution);
   }
@@ -171,6 +188,7 @@ void register_stage_benchmarks() {
     add("stage cocycles/", cocycles, false);
     add("stage collapse/", collapse, false);
     add("stage arcs/", arcs);
+    add("stage digits/", digits);
     add("stage result/", result);
   }
 }
