@@ -25,6 +25,14 @@ inline double across_opposite_edge(const SurfaceSnapshot& surface, Index h, Inde
   return std::hypot(z_along - v_along, whole);
 }
 
+// The two ways that begin at a half-edge: along it, and across the edge opposite to its origin.
+inline double way_along(const SurfaceSnapshot& surface, Index h) {
+  return (surface.position[surface.target(h)] - surface.position[surface.origin[h]]).norm();
+}
+inline double way_across(const SurfaceSnapshot& surface, Index h) {
+  return across_opposite_edge(surface, h, surface.apex(surface.twin[SurfaceSnapshot::next(h)]));
+}
+
 // Dijkstra from the given vertices, whose distances are known, over those that are open; edge(h) and
 // across(h) are the lengths of the ways that begin at the half-edge h.
 template <class Edge, class Across, class Open>
@@ -68,9 +76,8 @@ inline bool straight_way_is_free(const BoundingVolumeHierarchy& solid, const Vec
 
 inline SurfaceWays::SurfaceWays(const SurfaceSnapshot& surface) : surface_(surface) {
   for (Index h = 0; h < surface.halfedge_count(); ++h) {
-    edge_.push_back((surface.position[surface.target(h)] - surface.position[surface.origin[h]]).norm());
-    const Index opposite = surface.twin[SurfaceSnapshot::next(h)];
-    across_.push_back(detail::across_opposite_edge(surface, h, surface.apex(opposite)));
+    edge_.push_back(detail::way_along(surface, h));
+    across_.push_back(detail::way_across(surface, h));
   }
 }
 
@@ -111,14 +118,9 @@ inline void inner_distances(const SurfaceSnapshot& surface, const BoundingVolume
     distance[v] = free ? (surface.position[v] - from).norm() : std::numeric_limits<double>::infinity();
     if (free) seen.push_back(v);
   }
-  const auto edge = [&](Index h) {
-    return (surface.position[surface.target(h)] - surface.position[surface.origin[h]]).norm();
-  };
-  const auto across = [&](Index h) {
-    return detail::across_opposite_edge(surface, h, surface.apex(surface.twin[SurfaceSnapshot::next(h)]));
-  };
   detail::extend_ways(
-      surface, edge, across, [](Index) { return true; }, seen, distance);
+      surface, [&](Index h) { return detail::way_along(surface, h); },
+      [&](Index h) { return detail::way_across(surface, h); }, [](Index) { return true; }, seen, distance);
 }
 
 }  // namespace mspskel
