@@ -12,14 +12,10 @@
 #include "mspskel/collapse/collapse_skeleton_mesh.h"
 #include "mspskel/collapse/volume_cocycles.h"
 #include "mspskel/graph/branch_filter.h"
-#include "mspskel/graph/collapsed_arcs.h"
-#include "mspskel/graph/make_curve_skeleton.h"
-#include "mspskel/graph/reach_digits.h"
+#include "mspskel/graph/curve_skeleton.h"
 #include "mspskel/graph/refine_arcs.h"
 #include "mspskel/graph/restore_cycles.h"
-#include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/mesh/coarsen_surface.h"
-#include "mspskel/mesh/orient_shells.h"
 #include "mspskel/slice/cone_refinement.h"
 #include "mspskel/slice/plane_search.h"
 #include "mspskel/slice/slice_error.h"
@@ -95,13 +91,13 @@ ExtractResult extract_skeleton(const Mesh& mesh, const ExtractOptions& options =
 // The same on a snapshot, which moves into the result.
 ExtractResult extract_skeleton_of_snapshot(SurfaceSnapshot surface, const ExtractOptions& options);
 
+template <class Mesh>
+ExtractResult extract_skeleton(const Mesh& mesh, const ExtractOptions& options) {
+  return extract_skeleton_of_snapshot(make_snapshot(mesh), options);
+}
+
 }  // namespace mspskel
 
+#ifndef MSPSKEL_COMPILED
 #include "mspskel/detail/extract_skeleton_impl.h"
-
-#ifdef MSPSKEL_COMPILED
-// The compiled library holds it; other mesh types are instantiated where they are used.
-namespace mspskel {
-extern template ExtractResult extract_skeleton<DefaultMesh>(const DefaultMesh&, const ExtractOptions&);
-}
 #endif

@@ -1,6 +1,4 @@
-// Compiles the whole pipeline for the default mesh type once.
+// Compiles the pipeline once.
 #include "mspskel/extract_skeleton.h"
 
-namespace mspskel {
-template ExtractResult extract_skeleton<DefaultMesh>(const DefaultMesh&, const ExtractOptions&);
-}
+#include "mspskel/detail/extract_skeleton_impl.h"

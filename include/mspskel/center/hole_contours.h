@@ -35,4 +35,6 @@ Index add_hole_contours(const SliceTracer& tracer, const BoundingVolumeHierarchy
 
 }  // namespace mspskel
 
+#ifndef MSPSKEL_COMPILED
 #include "mspskel/center/detail/hole_contours_impl.h"
+#endif

@@ -101,4 +101,6 @@ std::vector<Vector2> flatten(const std::vector<Vector3>& points, const PlaneFram
 
 }  // namespace mspskel
 
+#ifndef MSPSKEL_COMPILED
 #include "mspskel/center/detail/planar_region_impl.h"
+#endif

@@ -55,4 +55,6 @@ Vector2 visible_field(const PlanarRegion& region, const Vector2& p, Index rays);
 
 }  // namespace mspskel
 
+#ifndef MSPSKEL_COMPILED
 #include "mspskel/center/detail/repulsive_force_impl.h"
+#endif

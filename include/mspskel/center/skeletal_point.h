@@ -79,4 +79,6 @@ SkeletalPoint find_skeletal_point(const PlanarRegion& region, const SkeletalPoin
 
 }  // namespace mspskel
 
+#ifndef MSPSKEL_COMPILED
 #include "mspskel/center/detail/skeletal_point_impl.h"
+#endif

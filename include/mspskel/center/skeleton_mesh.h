@@ -60,4 +60,6 @@ SkeletonMesh make_skeleton_mesh(const SliceTracer& tracer, const VertexSlices& s
 
 }  // namespace mspskel
 
+#ifndef MSPSKEL_COMPILED
 #include "mspskel/center/detail/skeleton_mesh_impl.h"
+#endif

@@ -147,4 +147,6 @@ SkeletonComplex make_complex(const SurfaceSnapshot& surface,
 
 }  // namespace mspskel
 
+#ifndef MSPSKEL_COMPILED
 #include "mspskel/collapse/detail/skeleton_complex_impl.h"
+#endif

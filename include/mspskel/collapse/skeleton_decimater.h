@@ -139,4 +139,6 @@ CollapsedSkeleton collapse_complex(SkeletonComplex complex, std::vector<MergingS
 
 }  // namespace mspskel
 
+#ifndef MSPSKEL_COMPILED
 #include "mspskel/collapse/detail/skeleton_decimater_impl.h"
+#endif

@@ -69,17 +69,18 @@ struct TopologyCertificate {
 
 // The component that each node stands for, from the map of the surface's vertices to nodes (kNone entries are
 // skipped). Throws UsageError for a node out of range.
-inline std::vector<Index> component_of_nodes(const SurfaceSnapshot& surface, Index node_count,
-                                             const std::vector<Index>& node_of_vertex);
+std::vector<Index> component_of_nodes(const SurfaceSnapshot& surface, Index node_count,
+                                      const std::vector<Index>& node_of_vertex);
 
 // `hierarchy` is that of the whole surface. Cost: O(faces + edges · (log faces + cocycles · crossings a
 // contour)), and the test for self-intersections, O(faces · log faces).
 // Throws UsageError for an edge that names no node, or a component that does not exist.
-inline TopologyCertificate certify_topology(const SurfaceSnapshot& surface, const VolumeCocycles& cocycles,
-                                            const BoundingVolumeHierarchy& hierarchy,
-                                            const PolylineGraph& graph,
-                                            const CertificateOptions& options = {});
+TopologyCertificate certify_topology(const SurfaceSnapshot& surface, const VolumeCocycles& cocycles,
+                                     const BoundingVolumeHierarchy& hierarchy, const PolylineGraph& graph,
+                                     const CertificateOptions& options = {});
 
 }  // namespace mspskel
 
+#ifndef MSPSKEL_COMPILED
 #include "mspskel/collapse/detail/topology_certificate_impl.h"
+#endif

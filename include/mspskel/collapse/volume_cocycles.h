@@ -103,11 +103,13 @@ inline std::vector<SliceCandidate> slice_candidates(const VertexSlices& slices) 
 // vanishes on every loop that bounds in the solid (if the surface is embedded).
 // Cost: O(faces) for genus 0; else O(faces · log faces + sections · faces of the component).
 // Throws UsageError for options or candidates out of range, Cancelled.
-inline VolumeCocycles compute_volume_cocycles(const SurfaceSnapshot& surface,
-                                              std::vector<SliceCandidate> candidates = {},
-                                              const CocycleOptions& options = {},
-                                              const ProgressCallback& progress = {});
+VolumeCocycles compute_volume_cocycles(const SurfaceSnapshot& surface,
+                                       std::vector<SliceCandidate> candidates = {},
+                                       const CocycleOptions& options = {},
+                                       const ProgressCallback& progress = {});
 
 }  // namespace mspskel
 
+#ifndef MSPSKEL_COMPILED
 #include "mspskel/collapse/detail/volume_cocycles_impl.h"
+#endif

@@ -3,6 +3,14 @@
 #include <chrono>
 #include <optional>
 
+#include "mspskel/base/linkage.h"
+#include "mspskel/graph/collapsed_arcs.h"
+#include "mspskel/graph/limit_nodes.h"
+#include "mspskel/graph/make_curve_skeleton.h"
+#include "mspskel/graph/reach_digits.h"
+#include "mspskel/mesh/bounding_volume_hierarchy.h"
+#include "mspskel/mesh/orient_shells.h"
+
 namespace mspskel {
 namespace detail {
 
@@ -158,7 +166,7 @@ inline void collect_warnings(ExtractResult& result) {
 
 }  // namespace detail
 
-inline ExtractOptions default_options() {
+MSPSKEL_INLINE ExtractOptions default_options() {
   ExtractOptions o;
   // The repulsive force has a minimum in each lobe of a wide slice, the filled region's field one in the
   // middle.
@@ -171,7 +179,7 @@ inline ExtractOptions default_options() {
   return o;
 }
 
-inline ExtractOptions thesis_options() {
+MSPSKEL_INLINE ExtractOptions thesis_options() {
   ExtractOptions o;
   o.mode = Mode::kThesis;
   o.coarsen = false;
@@ -184,7 +192,7 @@ inline ExtractOptions thesis_options() {
   return o;
 }
 
-inline void validate(const ExtractOptions& options) {
+MSPSKEL_INLINE void validate(const ExtractOptions& options) {
   validate(options.coarsening);
   if (options.limb_vertices < 4) throw UsageError("limb vertices must be at least 4");
   validate(options.search);
@@ -198,7 +206,8 @@ inline void validate(const ExtractOptions& options) {
   validate(options.refinement);
 }
 
-inline ExtractResult extract_skeleton_of_snapshot(SurfaceSnapshot surface, const ExtractOptions& options) {
+MSPSKEL_INLINE ExtractResult extract_skeleton_of_snapshot(SurfaceSnapshot surface,
+                                                          const ExtractOptions& options) {
   validate(options);
   ExtractResult result;
   detail::StageClock clock(result.seconds);
@@ -267,11 +276,6 @@ inline ExtractResult extract_skeleton_of_snapshot(SurfaceSnapshot surface, const
   clock.lap("result");
   detail::collect_warnings(result);
   return result;
-}
-
-template <class Mesh>
-ExtractResult extract_skeleton(const Mesh& mesh, const ExtractOptions& options) {
-  return extract_skeleton_of_snapshot(make_snapshot(mesh), options);
 }
 
 }  // namespace mspskel

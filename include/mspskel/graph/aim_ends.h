@@ -22,4 +22,6 @@ Index aim_at_tips(ArcGraph& graph, const BoundingVolumeHierarchy& solid, const s
 
 }  // namespace mspskel
 
+#ifndef MSPSKEL_COMPILED
 #include "mspskel/graph/detail/aim_ends_impl.h"
+#endif

@@ -76,4 +76,6 @@ void contract_arc(ArcGraph& graph, Index arc, const Vector3& position);
 
 }  // namespace mspskel
 
+#ifndef MSPSKEL_COMPILED
 #include "mspskel/graph/detail/arc_graph_impl.h"
+#endif

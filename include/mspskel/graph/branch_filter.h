@@ -41,4 +41,6 @@ BranchFilterResult filter_branches(const CollapsedSkeleton& skeleton,
 
 }  // namespace mspskel
 
+#ifndef MSPSKEL_COMPILED
 #include "mspskel/graph/detail/branch_filter_impl.h"
+#endif

@@ -65,4 +65,6 @@ void center_arcs(ArcGraph& graph, const BoundingVolumeHierarchy& solid, const Ce
 
 }  // namespace mspskel
 
+#ifndef MSPSKEL_COMPILED
 #include "mspskel/graph/detail/center_arcs_impl.h"
+#endif

@@ -42,15 +42,16 @@ struct SkeletonChecks {
 
 // Throws UsageError that names the first node that is not finite, or edge that names a node that is not there
 // or the same node twice, or entry of the surface map that is neither a node nor kNone.
-inline void validate(const CurveSkeleton& skeleton);
+void validate(const CurveSkeleton& skeleton);
 
 // The skeleton is in model units, hierarchy that of the snapshot. O(samples · log faces + samples · 2000),
 // parallel; does not depend on the threads. Throws UsageError for a skeleton that is not valid,
 // NoSkeletonError for one without nodes, Cancelled if the progress callback asks to stop.
-inline SkeletonChecks check_skeleton(const SurfaceSnapshot& snapshot,
-                                     const BoundingVolumeHierarchy& hierarchy, const CurveSkeleton& skeleton,
-                                     const Execution& execution = {});
+SkeletonChecks check_skeleton(const SurfaceSnapshot& snapshot, const BoundingVolumeHierarchy& hierarchy,
+                              const CurveSkeleton& skeleton, const Execution& execution = {});
 
 }  // namespace mspskel
 
+#ifndef MSPSKEL_COMPILED
 #include "mspskel/graph/detail/check_skeleton_impl.h"
+#endif

@@ -23,4 +23,6 @@ CurveSkeleton make_curve_skeleton(const ArcGraph& graph, const SurfaceSnapshot& 
 
 }  // namespace mspskel
 
+#ifndef MSPSKEL_COMPILED
 #include "mspskel/graph/detail/collapsed_arcs_impl.h"
+#endif

@@ -26,4 +26,6 @@ Index complete_limbs(ArcGraph& graph, const SurfaceSnapshot& surface, const Boun
 
 }  // namespace mspskel
 
+#ifndef MSPSKEL_COMPILED
 #include "mspskel/graph/detail/complete_limbs_impl.h"
+#endif

@@ -45,4 +45,6 @@ GraphCounts count_graph(const CurveSkeleton& skeleton);
 
 }  // namespace mspskel
 
+#ifndef MSPSKEL_COMPILED
 #include "mspskel/graph/detail/curve_skeleton_impl.h"
+#endif

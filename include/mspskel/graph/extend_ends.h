@@ -29,4 +29,6 @@ void extend_ends(ArcGraph& graph, const BoundingVolumeHierarchy& solid, const Ex
 
 }  // namespace mspskel
 
+#ifndef MSPSKEL_COMPILED
 #include "mspskel/graph/detail/extend_ends_impl.h"
+#endif

@@ -34,4 +34,6 @@ std::vector<Digit> find_digits(const ArcGraph& graph, const SurfaceSnapshot& sur
 
 }  // namespace mspskel
 
+#ifndef MSPSKEL_COMPILED
 #include "mspskel/graph/detail/find_digits_impl.h"
+#endif

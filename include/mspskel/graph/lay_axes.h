@@ -23,4 +23,6 @@ Index lay_axes(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVo
 
 }  // namespace mspskel
 
+#ifndef MSPSKEL_COMPILED
 #include "mspskel/graph/detail/lay_axes_impl.h"
+#endif

@@ -8,6 +8,11 @@
 
 namespace mspskel {
 
+namespace detail {
+// So much of a limb's end, in half widths, has its mean in the middle of it, on flat ends as well.
+inline constexpr double kEnd = 0.75;
+}  // namespace detail
+
 struct LimbOptions {
   // The least slenderness of a limb, 0 to 100; larger keeps fewer features. It is 1 for the corner of a cube
   // as its centre sees it.

@@ -49,4 +49,6 @@ std::vector<LimbTip> on_coarser_surface(std::vector<LimbTip> tips, const std::ve
 
 }  // namespace mspskel
 
+#ifndef MSPSKEL_COMPILED
 #include "mspskel/graph/detail/limb_tips_impl.h"
+#endif

@@ -14,4 +14,6 @@ Index limit_nodes(ArcGraph& graph, const BoundingVolumeHierarchy& solid, Index n
 
 }  // namespace mspskel
 
+#ifndef MSPSKEL_COMPILED
 #include "mspskel/graph/detail/limit_nodes_impl.h"
+#endif

@@ -14,4 +14,6 @@ Index merge_joints(ArcGraph& graph, const BoundingVolumeHierarchy& solid, double
 
 }  // namespace mspskel
 
+#ifndef MSPSKEL_COMPILED
 #include "mspskel/graph/detail/merge_joints_impl.h"
+#endif

@@ -18,4 +18,6 @@ Index remove_spurs(ArcGraph& graph, const BoundingVolumeHierarchy& solid);
 
 }  // namespace mspskel
 
+#ifndef MSPSKEL_COMPILED
 #include "mspskel/graph/detail/prune_branches_impl.h"
+#endif

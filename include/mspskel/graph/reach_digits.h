@@ -18,4 +18,6 @@ Index reach_digits(ArcGraph& graph, const SurfaceSnapshot& surface, const Boundi
 
 }  // namespace mspskel
 
+#ifndef MSPSKEL_COMPILED
 #include "mspskel/graph/detail/reach_digits_impl.h"
+#endif

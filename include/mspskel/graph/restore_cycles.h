@@ -28,4 +28,6 @@ CycleRestoration restore_cycles(ArcGraph& graph, const SurfaceSnapshot& surface,
 
 }  // namespace mspskel
 
+#ifndef MSPSKEL_COMPILED
 #include "mspskel/graph/detail/restore_cycles_impl.h"
+#endif

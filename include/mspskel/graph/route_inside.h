@@ -32,4 +32,6 @@ Index remove_crossing_leaves(ArcGraph& graph, const BoundingVolumeHierarchy& sol
 
 }  // namespace mspskel
 
+#ifndef MSPSKEL_COMPILED
 #include "mspskel/graph/detail/route_inside_impl.h"
+#endif

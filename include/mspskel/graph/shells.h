@@ -18,4 +18,6 @@ std::vector<bool> find_shells(const SurfaceSnapshot& surface, const BoundingVolu
 
 }  // namespace mspskel
 
+#ifndef MSPSKEL_COMPILED
 #include "mspskel/graph/detail/shells_impl.h"
+#endif

@@ -9,6 +9,11 @@
 
 namespace mspskel {
 
+namespace detail {
+// Vertices that a thread takes at a time: neighbours in storage share what it remembers.
+inline constexpr Index kMapGrain = 512;
+}  // namespace detail
+
 // Maximal connected sets of vertices that map to one node.
 struct SurfacePatches {
   std::vector<Index> patch_of_vertex;  // kNone where the vertex is isolated or maps nowhere
@@ -17,7 +22,7 @@ struct SurfacePatches {
 };
 
 // Patches are numbered by their first vertex. O(faces).
-inline SurfacePatches find_patches(const SurfaceSnapshot& snapshot, const std::vector<Index>& node_of_vertex);
+SurfacePatches find_patches(const SurfaceSnapshot& snapshot, const std::vector<Index>& node_of_vertex);
 
 struct SurfaceMapReport {
   bool partition = false;           // one node for each vertex that has a face, none for isolated ones
@@ -29,7 +34,7 @@ struct SurfaceMapReport {
 };
 
 // Never throws for a wrong map: it reports. O(faces).
-inline SurfaceMapReport report_surface_map(const SurfaceSnapshot& snapshot, const CurveSkeleton& skeleton);
+SurfaceMapReport report_surface_map(const SurfaceSnapshot& snapshot, const CurveSkeleton& skeleton);
 
 struct PatchRepair {
   Index moved_vertices = 0;
@@ -44,7 +49,7 @@ struct PatchRepair {
 // A partition stays a partition, and no node loses all its vertices. Nodes' `area` follows, perimeter and
 // slice_error do not. O(faces · rounds); there are few rounds, as each settles all patches that touch a
 // settled one. Throws UsageError if the map is not a partition.
-inline PatchRepair make_patches_connected(const SurfaceSnapshot& snapshot, CurveSkeleton& skeleton);
+PatchRepair make_patches_connected(const SurfaceSnapshot& snapshot, CurveSkeleton& skeleton);
 
 // After the arcs were resampled: gives every vertex that belongs to a branch the nearest node along this
 // branch, that is, the nearer end of the nearest edge of the branch's polyline; ties go to the earlier one.
@@ -53,14 +58,16 @@ inline PatchRepair make_patches_connected(const SurfaceSnapshot& snapshot, Curve
 // Writes skeleton.node_of_vertex, then makes the patches connected. O(vertices · nodes of their branch).
 // Throws UsageError if a branch has no nodes or names one that is not there, or the map ends up as no
 // partition.
-inline PatchRepair assign_vertices_to_branch_nodes(const SurfaceSnapshot& snapshot, CurveSkeleton& skeleton,
-                                                   const std::vector<Index>& branch_of_vertex,
-                                                   const std::vector<Branch>& branches,
-                                                   const Execution& execution = {});
+PatchRepair assign_vertices_to_branch_nodes(const SurfaceSnapshot& snapshot, CurveSkeleton& skeleton,
+                                            const std::vector<Index>& branch_of_vertex,
+                                            const std::vector<Branch>& branches,
+                                            const Execution& execution = {});
 
 // Sets every node's area to the surface area of its vertices, model units squared. O(vertices).
-inline void set_areas(const SurfaceSnapshot& snapshot, CurveSkeleton& skeleton);
+void set_areas(const SurfaceSnapshot& snapshot, CurveSkeleton& skeleton);
 
 }  // namespace mspskel
 
+#ifndef MSPSKEL_COMPILED
 #include "mspskel/graph/detail/surface_map_impl.h"
+#endif

@@ -23,4 +23,6 @@ Index tighten_in_walls(ArcGraph& graph, const SurfaceSnapshot& surface, const Bo
 
 }  // namespace mspskel
 
+#ifndef MSPSKEL_COMPILED
 #include "mspskel/graph/detail/tighten_walls_impl.h"
+#endif

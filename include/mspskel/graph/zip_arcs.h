@@ -27,4 +27,6 @@ Index zip_arcs(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVo
 
 }  // namespace mspskel
 
+#ifndef MSPSKEL_COMPILED
 #include "mspskel/graph/detail/zip_arcs_impl.h"
+#endif

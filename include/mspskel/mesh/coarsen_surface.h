@@ -28,7 +28,7 @@ struct CoarseningOptions {
 };
 
 // Throws UsageError naming the option that is out of range.
-inline void validate(const CoarseningOptions& options);
+void validate(const CoarseningOptions& options);
 
 struct CoarseSurface {
   SurfaceSnapshot surface;           // in the frame of the input: its positions are comparable to the input's
@@ -53,9 +53,11 @@ struct CoarseSurface {
 // nothing guards against it.
 //
 // O(faces · log(faces / vertices)). Throws UsageError, Cancelled.
-inline CoarseSurface coarsen_surface(const SurfaceSnapshot& input, const CoarseningOptions& options = {},
-                                     const Execution& execution = {});
+CoarseSurface coarsen_surface(const SurfaceSnapshot& input, const CoarseningOptions& options = {},
+                              const Execution& execution = {});
 
 }  // namespace mspskel
 
+#ifndef MSPSKEL_COMPILED
 #include "mspskel/mesh/detail/coarsen_surface_impl.h"
+#endif

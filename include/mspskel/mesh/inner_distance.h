@@ -46,4 +46,6 @@ void inner_distances(const SurfaceSnapshot& surface, const BoundingVolumeHierarc
 
 }  // namespace mspskel
 
+#ifndef MSPSKEL_COMPILED
 #include "mspskel/mesh/detail/inner_distance_impl.h"
+#endif

@@ -39,18 +39,20 @@ struct MeshReportOptions {
 };
 
 // Throws UsageError naming the option that is out of range.
-inline void validate(const MeshReportOptions& options);
+void validate(const MeshReportOptions& options);
 
 // Diagonal of the axis-parallel bounding box, in normalised units. O(vertices).
-inline double bounding_box_diagonal(const SurfaceSnapshot& snapshot);
+double bounding_box_diagonal(const SurfaceSnapshot& snapshot);
 
 // O(faces log faces) for most surfaces; a component inside another is found by its first vertex, so the
 // nesting of pieces that cross each other means nothing.
-inline MeshReport report_mesh(const SurfaceSnapshot& snapshot, const BoundingVolumeHierarchy& hierarchy,
-                              const MeshReportOptions& options = {}, const Execution& execution = {});
-inline MeshReport report_mesh(const SurfaceSnapshot& snapshot, const MeshReportOptions& options = {},
-                              const Execution& execution = {});
+MeshReport report_mesh(const SurfaceSnapshot& snapshot, const BoundingVolumeHierarchy& hierarchy,
+                       const MeshReportOptions& options = {}, const Execution& execution = {});
+MeshReport report_mesh(const SurfaceSnapshot& snapshot, const MeshReportOptions& options = {},
+                       const Execution& execution = {});
 
 }  // namespace mspskel
 
+#ifndef MSPSKEL_COMPILED
 #include "mspskel/mesh/detail/mesh_report_impl.h"
+#endif

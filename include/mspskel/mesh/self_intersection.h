@@ -11,11 +11,12 @@ namespace mspskel {
 // Triangles without area are left to their neighbours. Stops as soon as `limit` pairs are known, so limit = 1
 // answers yes or no. O((faces + pairs whose boxes overlap) · log faces), parallel; the count does not depend
 // on the threads. Throws Cancelled if the progress callback asks to stop.
-inline Index count_self_intersections(const SurfaceSnapshot& snapshot,
-                                      const BoundingVolumeHierarchy& hierarchy,
-                                      Index limit = std::numeric_limits<Index>::max(),
-                                      const Execution& execution = {});
+Index count_self_intersections(const SurfaceSnapshot& snapshot, const BoundingVolumeHierarchy& hierarchy,
+                               Index limit = std::numeric_limits<Index>::max(),
+                               const Execution& execution = {});
 
 }  // namespace mspskel
 
+#ifndef MSPSKEL_COMPILED
 #include "mspskel/mesh/detail/self_intersection_impl.h"
+#endif

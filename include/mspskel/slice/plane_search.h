@@ -35,8 +35,6 @@ inline void validate(const SearchOptions& o) {
 
 }  // namespace mspskel
 
-#include "mspskel/slice/detail/plane_search_impl.h"
-
 namespace mspskel {
 
 // MSP slices by search. Seeds, the vertices whose area no neighbour exceeds, search on their own; from them
@@ -44,33 +42,11 @@ namespace mspskel {
 // go on spreading until nothing changes or `rounds` are over. A round reads only the round before, so the
 // result depends neither on threads nor on the order of vertices. Cost: about 15 slices a vertex. Errors are
 // left at 1. Throws UsageError, Cancelled.
-inline VertexSlices search_minimum_slice_perimeters(const SliceTracer& tracer, const SearchOptions& options,
-                                                    const Execution& execution = {}) {
-  validate(options);
-  const SurfaceSnapshot& surface = tracer.surface();
-  const Index count = surface.vertex_count();
-  const std::vector<detail::SpreadPlane> spread = detail::spread_planes(options);
-  detail::SearchState state(surface);
-  std::vector<detail::RoundResult> found;
-  for (int round = 0, settling = 0; !state.active.empty(); ++round) {
-    if (state.unvisited == 0 && settling++ >= options.rounds) break;
-    const auto active = static_cast<Index>(state.active.size());
-    found.resize(state.active.size());
-    parallel_for(
-        active, "slice search", execution, [] { return std::vector<detail::PlaneOffer>(); },
-        [&](Index i, std::vector<detail::PlaneOffer>& offers) {
-          found[i] = detail::search_round(tracer, options, spread, state, round, state.active[i], offers);
-        });
-    state.advance(surface, found, round);
-  }
-  VertexSlices slices;
-  slices.resize(count);
-  for (Index v = 0; v < count; ++v) detail::store_slice(v, state.best[v], slices);
-  for (const detail::BestSlice& best : state.best) {
-    slices.slices += best.slices;
-    slices.steps += best.steps;
-  }
-  return slices;
-}
+VertexSlices search_minimum_slice_perimeters(const SliceTracer& tracer, const SearchOptions& options,
+                                             const Execution& execution = {});
 
 }  // namespace mspskel
+
+#ifndef MSPSKEL_COMPILED
+#include "mspskel/slice/detail/plane_search_impl.h"
+#endif

@@ -84,4 +84,6 @@ class SliceTracer {
 
 }  // namespace mspskel
 
+#ifndef MSPSKEL_COMPILED
 #include "mspskel/slice/detail/trace_contour_impl.h"
+#endif

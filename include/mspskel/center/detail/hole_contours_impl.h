@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mspskel/base/even_directions.h"
+#include "mspskel/base/linkage.h"
 
 namespace mspskel {
 
@@ -30,7 +31,7 @@ inline Index first_visit(const Contour& contour, const std::vector<Index>& visit
 
 }  // namespace detail::slice_centre
 
-inline void flatten_slice(const SurfaceSnapshot& surface, SliceRegion& slice) {
+MSPSKEL_INLINE void flatten_slice(const SurfaceSnapshot& surface, SliceRegion& slice) {
   const Contour& contour = slice.contour;
   const auto count = static_cast<Index>(contour.point.size());
   const auto at_vertex = [&](Index i) {
@@ -61,8 +62,8 @@ inline void flatten_slice(const SurfaceSnapshot& surface, SliceRegion& slice) {
   slice.region.set_outer(flatten(points, slice.frame));
 }
 
-inline bool may_have_holes(const SliceRegion& slice, const BoundingVolumeHierarchy& solid,
-                           const Vector2& from, int rays) {
+MSPSKEL_INLINE bool may_have_holes(const SliceRegion& slice, const BoundingVolumeHierarchy& solid,
+                                   const Vector2& from, int rays) {
   constexpr double kMargin = 1e-6;  // in perimeters: the same contour, found by two ways
   const double unit = slice.region.perimeter();
   const Vector3 origin = slice.frame.to_space(from);
@@ -119,8 +120,8 @@ inline bool mostly_inside(const std::vector<Vector2>& polygon, const PlanarRegio
 
 }  // namespace detail::slice_centre
 
-inline Index add_hole_contours(const SliceTracer& tracer, const BoundingVolumeHierarchy& solid,
-                               SliceRegion& slice) {
+MSPSKEL_INLINE Index add_hole_contours(const SliceTracer& tracer, const BoundingVolumeHierarchy& solid,
+                                       SliceRegion& slice) {
   const std::vector<Index> starts = detail::slice_centre::crossings_near(slice, tracer.surface(), solid);
   std::vector<bool> seen(starts.size(), false);
   const auto mark = [&](const Contour& contour) {

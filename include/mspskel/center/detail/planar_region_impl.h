@@ -4,9 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "mspskel/base/linkage.h"
+
 namespace mspskel {
 
-inline PlaneFrame make_plane_frame(const std::vector<Vector3>& points, const Vector3& normal) {
+MSPSKEL_INLINE PlaneFrame make_plane_frame(const std::vector<Vector3>& points, const Vector3& normal) {
   PlaneFrame frame;
   frame.origin.setZero();
   for (const Vector3& p : points) frame.origin += p;
@@ -20,19 +22,19 @@ inline PlaneFrame make_plane_frame(const std::vector<Vector3>& points, const Vec
   return frame;
 }
 
-inline std::vector<Vector2> flatten(const std::vector<Vector3>& points, const PlaneFrame& frame) {
+MSPSKEL_INLINE std::vector<Vector2> flatten(const std::vector<Vector3>& points, const PlaneFrame& frame) {
   std::vector<Vector2> polygon(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) polygon[i] = frame.to_plane(points[i]);
   return polygon;
 }
 
-inline PlanarRegion::PlanarRegion(const std::vector<Vector2>& outer,
-                                  const std::vector<std::vector<Vector2>>& holes) {
+MSPSKEL_INLINE PlanarRegion::PlanarRegion(const std::vector<Vector2>& outer,
+                                          const std::vector<std::vector<Vector2>>& holes) {
   set_outer(outer);
   for (const auto& hole : holes) add_hole(hole);
 }
 
-inline void PlanarRegion::set_outer(const std::vector<Vector2>& polygon) {
+MSPSKEL_INLINE void PlanarRegion::set_outer(const std::vector<Vector2>& polygon) {
   rings_.clear();
   x_.clear();
   y_.clear();
@@ -42,9 +44,9 @@ inline void PlanarRegion::set_outer(const std::vector<Vector2>& polygon) {
   add_ring(polygon, 1.0);
 }
 
-inline void PlanarRegion::add_hole(const std::vector<Vector2>& polygon) { add_ring(polygon, -1.0); }
+MSPSKEL_INLINE void PlanarRegion::add_hole(const std::vector<Vector2>& polygon) { add_ring(polygon, -1.0); }
 
-inline void PlanarRegion::add_ring(const std::vector<Vector2>& polygon, double sign) {
+MSPSKEL_INLINE void PlanarRegion::add_ring(const std::vector<Vector2>& polygon, double sign) {
   if (polygon.empty()) return;
   Ring ring;
   ring.points = static_cast<Index>(polygon.size());
@@ -79,18 +81,18 @@ inline void PlanarRegion::add_ring(const std::vector<Vector2>& polygon, double s
   rings_.push_back(ring);
 }
 
-inline bool PlanarRegion::valid() const {
+MSPSKEL_INLINE bool PlanarRegion::valid() const {
   return !rings_.empty() && perimeter() > 0 && std::isfinite(perimeter()) &&
          rings_[0].area > 1e-12 * perimeter() * perimeter();
 }
 
-inline double PlanarRegion::area() const {
+MSPSKEL_INLINE double PlanarRegion::area() const {
   double sum = 0;
   for (const Ring& ring : rings_) sum += ring.area;
   return sum;
 }
 
-inline Vector2 PlanarRegion::centroid() const {
+MSPSKEL_INLINE Vector2 PlanarRegion::centroid() const {
   if (!(area() > 0)) return contour_centroid();
   const Vector2 base = point(0);
   Vector2 sum = Vector2::Zero();
@@ -105,7 +107,7 @@ inline Vector2 PlanarRegion::centroid() const {
   return base + sum / twice_total;
 }
 
-inline Vector2 PlanarRegion::contour_centroid() const {
+MSPSKEL_INLINE Vector2 PlanarRegion::contour_centroid() const {
   if (rings_.empty()) return Vector2::Zero();
   const Vector2 base = point(0);
   if (!(perimeter() > 0)) return base;
@@ -115,17 +117,17 @@ inline Vector2 PlanarRegion::contour_centroid() const {
   return base + sum / perimeter();
 }
 
-inline double PlanarRegion::roundness() const {
+MSPSKEL_INLINE double PlanarRegion::roundness() const {
   return perimeter() > 0 ? 4 * kPi * rings_[0].area / (perimeter() * perimeter()) : 0.0;
 }
 
-inline double PlanarRegion::mean_width() const {
+MSPSKEL_INLINE double PlanarRegion::mean_width() const {
   double length = 0;
   for (const Ring& ring : rings_) length += ring.perimeter;
   return length > 0 ? 2 * area() / length : 0.0;
 }
 
-inline bool PlanarRegion::contains(const Vector2& p) const {
+MSPSKEL_INLINE bool PlanarRegion::contains(const Vector2& p) const {
   int parity = 0;
   for (const Ring& ring : rings_) {
     const double *x = x_.data() + ring.begin, *y = y_.data() + ring.begin;
@@ -140,7 +142,7 @@ inline bool PlanarRegion::contains(const Vector2& p) const {
   return parity != 0;
 }
 
-inline double PlanarRegion::distance(const Vector2& p) const {
+MSPSKEL_INLINE double PlanarRegion::distance(const Vector2& p) const {
   using Block = Eigen::Array<double, kBlock, 1>;
   using Map = Eigen::Map<const Block>;
   Block best = Block::Constant(std::numeric_limits<double>::infinity());
@@ -154,7 +156,7 @@ inline double PlanarRegion::distance(const Vector2& p) const {
   return std::sqrt(best.minCoeff());
 }
 
-inline double PlanarRegion::first_hit(const Vector2& p, const Vector2& d) const {
+MSPSKEL_INLINE double PlanarRegion::first_hit(const Vector2& p, const Vector2& d) const {
   // Segments are closed with a margin, or a step might slip out between two of them.
   constexpr double kMargin = 1e-12;
   using Block = Eigen::Array<double, kBlock, 1>;
@@ -177,7 +179,7 @@ inline double PlanarRegion::first_hit(const Vector2& p, const Vector2& d) const 
   return best;
 }
 
-inline std::vector<PlanarRegion::Sample> PlanarRegion::sample(Index ring_index, Index count) const {
+MSPSKEL_INLINE std::vector<PlanarRegion::Sample> PlanarRegion::sample(Index ring_index, Index count) const {
   const Ring& ring = rings_[ring_index];
   std::vector<Sample> samples;
   samples.reserve(static_cast<std::size_t>(count));
@@ -204,7 +206,7 @@ inline std::vector<PlanarRegion::Sample> PlanarRegion::sample(Index ring_index, 
   return samples;
 }
 
-inline PlanarRegion PlanarRegion::resampled(Index max_segments) const {
+MSPSKEL_INLINE PlanarRegion PlanarRegion::resampled(Index max_segments) const {
   PlanarRegion result;
   for (Index r = 0; r < static_cast<Index>(rings_.size()); ++r) {
     std::vector<Vector2> polygon;

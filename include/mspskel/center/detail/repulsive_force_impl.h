@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "mspskel/base/clones.h"
+#include "mspskel/base/linkage.h"
 
 namespace mspskel {
 namespace detail::slice_centre {
@@ -120,7 +121,7 @@ struct AreaSums {
 
 }  // namespace detail::slice_centre
 
-inline ForceSamples::ForceSamples(const std::vector<Vector2>& points)
+MSPSKEL_INLINE ForceSamples::ForceSamples(const std::vector<Vector2>& points)
     : count(static_cast<Index>(points.size())) {
   // Its square and cube are finite, and what is divided by them vanishes beside any sum of the others.
   constexpr double kFarAway = 1e100;
@@ -133,7 +134,7 @@ inline ForceSamples::ForceSamples(const std::vector<Vector2>& points)
   }
 }
 
-inline Vector2 sampled_repulsive_force(const ForceSamples& force_samples, const Vector2& p) {
+MSPSKEL_INLINE Vector2 sampled_repulsive_force(const ForceSamples& force_samples, const Vector2& p) {
   using detail::slice_centre::Block;
   using detail::slice_centre::BlockMap;
   Block fx = Block::Zero(), fy = Block::Zero();
@@ -146,7 +147,7 @@ inline Vector2 sampled_repulsive_force(const ForceSamples& force_samples, const 
   return {fx.sum(), fy.sum()};
 }
 
-inline FieldValue repulsive_field(const PlanarRegion& region, const Vector2& p) {
+MSPSKEL_INLINE FieldValue repulsive_field(const PlanarRegion& region, const Vector2& p) {
   detail::slice_centre::PointTable table;
   detail::slice_centre::RepulsiveSums sums;
   detail::slice_centre::Block logs = detail::slice_centre::Block::Zero();
@@ -168,7 +169,7 @@ inline FieldValue repulsive_field(const PlanarRegion& region, const Vector2& p) 
   return value;
 }
 
-MSPSKEL_AVX_CLONES inline FieldValue area_field(const PlanarRegion& region, const Vector2& p) {
+MSPSKEL_AVX_CLONES MSPSKEL_INLINE FieldValue area_field(const PlanarRegion& region, const Vector2& p) {
   detail::slice_centre::LogTable table;
   detail::slice_centre::AreaSums sums;
   constexpr Index kChunk = detail::slice_centre::LogTable::kPoints;
@@ -189,7 +190,7 @@ MSPSKEL_AVX_CLONES inline FieldValue area_field(const PlanarRegion& region, cons
   return value;
 }
 
-inline Vector2 visible_field(const PlanarRegion& region, const Vector2& p, Index rays) {
+MSPSKEL_INLINE Vector2 visible_field(const PlanarRegion& region, const Vector2& p, Index rays) {
   std::vector<double> reach(static_cast<std::size_t>(rays), std::numeric_limits<double>::infinity());
   const double spacing = 2 * kPi / rays;
   // Ray 0 points at the first contour point, so that the rays turn with the region.

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "mspskel/base/linkage.h"
 #include "mspskel/center/detail/descent.h"
 
 namespace mspskel {
@@ -326,7 +327,7 @@ inline void require(bool good, const char* option, const char* range) {
 
 }  // namespace detail::slice_centre
 
-inline void validate(const SkeletalPointOptions& o) {
+MSPSKEL_INLINE void validate(const SkeletalPointOptions& o) {
   const auto count = [](Index x, Index low, Index high) { return x >= low && x <= high; };
   detail::slice_centre::require(count(o.moving_samples, 1, 10000), "moving_samples", "1 to 10000");
   detail::slice_centre::require(count(o.force_samples, 3, 100000), "force_samples", "3 to 100000");
@@ -344,7 +345,8 @@ inline void validate(const SkeletalPointOptions& o) {
   detail::slice_centre::require(count(o.max_iterations, 1, 100000), "max_iterations", "1 to 100000");
 }
 
-inline SkeletalPoint find_skeletal_point(const PlanarRegion& region, const SkeletalPointOptions& options) {
+MSPSKEL_INLINE SkeletalPoint find_skeletal_point(const PlanarRegion& region,
+                                                 const SkeletalPointOptions& options) {
   validate(options);
   if (options.method == SkeletalPointMethod::kCentre || !region.valid()) {
     SkeletalPoint result;

@@ -3,6 +3,8 @@
 #include <memory>
 #include <vector>
 
+#include "mspskel/base/linkage.h"
+
 namespace mspskel {
 namespace detail::slice_centre {
 
@@ -108,8 +110,9 @@ inline void fill_in_points(const SurfaceSnapshot& surface, SkeletonMesh& mesh) {
 
 }  // namespace detail::slice_centre
 
-inline SkeletonMesh make_skeleton_mesh(const SliceTracer& tracer, const VertexSlices& slices,
-                                       const SkeletonMeshOptions& options, const Execution& execution) {
+MSPSKEL_INLINE SkeletonMesh make_skeleton_mesh(const SliceTracer& tracer, const VertexSlices& slices,
+                                               const SkeletonMeshOptions& options,
+                                               const Execution& execution) {
   validate(options);
   const SurfaceSnapshot& surface = tracer.surface();
   SkeletonMesh mesh;

@@ -3,23 +3,25 @@
 #include <algorithm>
 #include <utility>
 
+#include "mspskel/base/linkage.h"
+
 namespace mspskel {
 
-inline SkeletonComplex::SkeletonComplex(Index vertex_count)
+MSPSKEL_INLINE SkeletonComplex::SkeletonComplex(Index vertex_count)
     : vertices_(static_cast<std::size_t>(vertex_count)), vertex_count_(vertex_count) {}
 
-inline CocycleLabel SkeletonComplex::label(Index dart) const {
+MSPSKEL_INLINE CocycleLabel SkeletonComplex::label(Index dart) const {
   return dart % 2 == 0 ? labels_[dart / 2] : -labels_[dart / 2];
 }
 
-inline std::array<Index, 3> SkeletonComplex::face_darts(Index f) const {
+MSPSKEL_INLINE std::array<Index, 3> SkeletonComplex::face_darts(Index f) const {
   return {corners_[3 * f].dart, corners_[3 * f + 1].dart, corners_[3 * f + 2].dart};
 }
 
 // ---- lists
 // -----------------------------------------------------------------------------------------------------------
 
-inline void SkeletonComplex::link_dart(Index dart, Index vertex) {
+MSPSKEL_INLINE void SkeletonComplex::link_dart(Index dart, Index vertex) {
   Vertex& v = vertices_[vertex];
   darts_[dart] = {vertex, v.first, kNone};
   if (v.first != kNone) darts_[v.first].prev = dart;
@@ -27,7 +29,7 @@ inline void SkeletonComplex::link_dart(Index dart, Index vertex) {
   ++v.degree;
 }
 
-inline void SkeletonComplex::unlink_dart(Index dart) {
+MSPSKEL_INLINE void SkeletonComplex::unlink_dart(Index dart) {
   const Dart d = darts_[dart];
   (d.prev == kNone ? vertices_[d.origin].first : darts_[d.prev].next) = d.next;
   if (d.next != kNone) darts_[d.next].prev = d.prev;
@@ -35,7 +37,7 @@ inline void SkeletonComplex::unlink_dart(Index dart) {
   darts_[dart] = {};
 }
 
-inline void SkeletonComplex::link_corner(Index corner, Index dart) {
+MSPSKEL_INLINE void SkeletonComplex::link_corner(Index corner, Index dart) {
   Edge& e = edges_[dart / 2];
   corners_[corner] = {dart, e.first_corner, kNone};
   if (e.first_corner != kNone) corners_[e.first_corner].prev = corner;
@@ -43,7 +45,7 @@ inline void SkeletonComplex::link_corner(Index corner, Index dart) {
   ++e.face_count;
 }
 
-inline void SkeletonComplex::unlink_corner(Index corner) {
+MSPSKEL_INLINE void SkeletonComplex::unlink_corner(Index corner) {
   const Corner c = corners_[corner];
   Edge& e = edges_[c.dart / 2];
   (c.prev == kNone ? e.first_corner : corners_[c.prev].next) = c.next;
@@ -63,7 +65,7 @@ void SkeletonComplex::for_each_dart_between(Index u, Index x, Visit visit) const
 // ---- construction
 // ----------------------------------------------------------------------------------------------------
 
-inline Index SkeletonComplex::add_edge(Index first, Index second, CocycleLabel label) {
+MSPSKEL_INLINE Index SkeletonComplex::add_edge(Index first, Index second, CocycleLabel label) {
   const auto valid = [&](Index v) { return v >= 0 && v < vertex_capacity() && is_vertex(v); };
   if (!valid(first) || !valid(second) || first == second)
     throw UsageError("edge " + std::to_string(first) + "-" + std::to_string(second) +
@@ -78,7 +80,7 @@ inline Index SkeletonComplex::add_edge(Index first, Index second, CocycleLabel l
   return e;
 }
 
-inline Index SkeletonComplex::add_face(Index dart0, Index dart1, Index dart2) {
+MSPSKEL_INLINE Index SkeletonComplex::add_face(Index dart0, Index dart1, Index dart2) {
   const std::array<Index, 3> darts{dart0, dart1, dart2};
   const Index f = face_capacity();
   for (const Index d : darts)
@@ -97,14 +99,14 @@ inline Index SkeletonComplex::add_face(Index dart0, Index dart1, Index dart2) {
   return f;
 }
 
-inline void SkeletonComplex::reserve(Index edges, Index faces) {
+MSPSKEL_INLINE void SkeletonComplex::reserve(Index edges, Index faces) {
   darts_.reserve(darts_.size() + 2 * static_cast<std::size_t>(edges));
   edges_.reserve(edges_.size() + static_cast<std::size_t>(edges));
   labels_.reserve(labels_.size() + static_cast<std::size_t>(edges));
   corners_.reserve(corners_.size() + 3 * static_cast<std::size_t>(faces));
 }
 
-inline void SkeletonComplex::drop_isolated_vertices() {
+MSPSKEL_INLINE void SkeletonComplex::drop_isolated_vertices() {
   for (Vertex& v : vertices_) {
     if (!v.alive || v.degree > 0) continue;
     v.alive = false;
@@ -112,12 +114,12 @@ inline void SkeletonComplex::drop_isolated_vertices() {
   }
 }
 
-inline void SkeletonComplex::forget_labels() {
+MSPSKEL_INLINE void SkeletonComplex::forget_labels() {
   for (CocycleLabel& label : labels_) label = {};
   merge_parallel_edges();
 }
 
-inline void SkeletonComplex::merge_parallel_edges() {
+MSPSKEL_INLINE void SkeletonComplex::merge_parallel_edges() {
   for (Index e = 0; e < edge_capacity(); ++e) {
     if (!is_edge(e)) continue;
     const auto [u, v] = ends(e);
@@ -132,12 +134,12 @@ inline void SkeletonComplex::merge_parallel_edges() {
 // ---- collapse
 // --------------------------------------------------------------------------------------------------------
 
-inline bool SkeletonComplex::same_class(const CocycleLabel& shift, Index dart, Index other) const {
+MSPSKEL_INLINE bool SkeletonComplex::same_class(const CocycleLabel& shift, Index dart, Index other) const {
   if (shift.is_zero() && labels_[dart / 2].is_zero()) return labels_[other / 2].is_zero();
   return shift + label(dart) == label(other);
 }
 
-inline CollapseRefusal SkeletonComplex::refusal(Index e, Index kept, bool allow_parallel) {
+MSPSKEL_INLINE CollapseRefusal SkeletonComplex::refusal(Index e, Index kept, bool allow_parallel) {
   const Index out = dart_from(e, kept), gone = target(out);
   const CocycleLabel shift = label(out);
   merges_.clear();
@@ -160,14 +162,14 @@ inline CollapseRefusal SkeletonComplex::refusal(Index e, Index kept, bool allow_
   return CollapseRefusal::kAllowed;
 }
 
-inline void SkeletonComplex::rebase(Index dart, const CocycleLabel& shift) {
+MSPSKEL_INLINE void SkeletonComplex::rebase(Index dart, const CocycleLabel& shift) {
   if (dart % 2 == 0)
     labels_[dart / 2] += shift;
   else
     labels_[dart / 2] -= shift;
 }
 
-inline CollapseRefusal SkeletonComplex::collapse(Index e, Index kept, bool allow_parallel) {
+MSPSKEL_INLINE CollapseRefusal SkeletonComplex::collapse(Index e, Index kept, bool allow_parallel) {
   if (const CollapseRefusal reason = refusal(e, kept, allow_parallel); reason != CollapseRefusal::kAllowed)
     return reason;
   const Index out = dart_from(e, kept), gone = target(out);
@@ -191,7 +193,7 @@ inline CollapseRefusal SkeletonComplex::collapse(Index e, Index kept, bool allow
 }
 
 // Both darts are about to run between the same vertices: `keep`'s edge takes over the faces of `gone`'s.
-inline void SkeletonComplex::merge_edges(Index keep, Index gone) {
+MSPSKEL_INLINE void SkeletonComplex::merge_edges(Index keep, Index gone) {
   while (edges_[gone / 2].first_corner != kNone) {
     const Index corner = edges_[gone / 2].first_corner;
     const Index dart = corners_[corner].dart == gone ? keep : keep ^ 1;
@@ -203,7 +205,7 @@ inline void SkeletonComplex::merge_edges(Index keep, Index gone) {
 }
 
 // Whether another face has the same three edges.
-inline bool SkeletonComplex::has_twin_face(Index f) const {
+MSPSKEL_INLINE bool SkeletonComplex::has_twin_face(Index f) const {
   const auto [a, b, c] = face_darts(f);
   Index few = a / 2;
   for (const Index e : {b / 2, c / 2})
@@ -219,12 +221,12 @@ inline bool SkeletonComplex::has_twin_face(Index f) const {
   return false;
 }
 
-inline void SkeletonComplex::delete_face(Index f) {
+MSPSKEL_INLINE void SkeletonComplex::delete_face(Index f) {
   for (Index corner = 3 * f; corner < 3 * f + 3; ++corner) unlink_corner(corner);
   --face_count_;
 }
 
-inline void SkeletonComplex::delete_edge(Index e) {
+MSPSKEL_INLINE void SkeletonComplex::delete_edge(Index e) {
   if (edges_[e].first_corner != kNone)
     throw UsageError("edge " + std::to_string(e) + " has faces and cannot be deleted");
   unlink_dart(2 * e);
@@ -236,7 +238,7 @@ inline void SkeletonComplex::delete_edge(Index e) {
 // ---- checks
 // ----------------------------------------------------------------------------------------------------------
 
-inline std::string SkeletonComplex::find_violation() const {
+MSPSKEL_INLINE std::string SkeletonComplex::find_violation() const {
   Index vertices = 0, edges = 0, faces = 0;
   for (Index v = 0; v < vertex_capacity(); ++v) {
     vertices += is_vertex(v) ? 1 : 0;
@@ -279,8 +281,8 @@ inline std::string SkeletonComplex::find_violation() const {
 // ---- from a surface
 // --------------------------------------------------------------------------------------------------
 
-inline SkeletonComplex make_complex(const SurfaceSnapshot& surface,
-                                    const std::vector<CocycleLabel>& halfedge_label) {
+MSPSKEL_INLINE SkeletonComplex make_complex(const SurfaceSnapshot& surface,
+                                            const std::vector<CocycleLabel>& halfedge_label) {
   const bool labelled = !halfedge_label.empty();
   if (labelled && static_cast<Index>(halfedge_label.size()) != surface.halfedge_count())
     throw UsageError("labels: there must be one for every half-edge");

@@ -9,10 +9,13 @@
 #include <string>
 #include <utility>
 
+#include "mspskel/base/linkage.h"
+#include "mspskel/collapse/detail/collapsed_edges.h"
+
 namespace mspskel {
 
-inline SkeletonDecimater::SkeletonDecimater(SkeletonComplex complex, std::vector<MergingSet> sets,
-                                            CollapseOptions options)
+MSPSKEL_INLINE SkeletonDecimater::SkeletonDecimater(SkeletonComplex complex, std::vector<MergingSet> sets,
+                                                    CollapseOptions options)
     : complex_(std::move(complex)), sets_(std::move(sets)), options_(std::move(options)) {
   validate(options_);
   if (!options_.keep_topology) complex_.forget_labels();
@@ -33,7 +36,7 @@ inline SkeletonDecimater::SkeletonDecimater(SkeletonComplex complex, std::vector
   std::make_heap(heap_.begin(), heap_.end(), std::greater<>());
 }
 
-inline Index SkeletonDecimater::node_of(Index v) const {
+MSPSKEL_INLINE Index SkeletonDecimater::node_of(Index v) const {
   while (parent_[v] != kNone) v = parent_[v];
   return v;
 }
@@ -41,32 +44,32 @@ inline Index SkeletonDecimater::node_of(Index v) const {
 // ---- costs
 // -----------------------------------------------------------------------------------------------------------
 
-inline void SkeletonDecimater::refresh(Index node) {
+MSPSKEL_INLINE void SkeletonDecimater::refresh(Index node) {
   Node& n = nodes_[node];
   n.position = sets_[node].position();
   n.perimeter = sets_[node].perimeter();
   n.axis_known = false;
 }
 
-inline const Vector3& SkeletonDecimater::axis(Index node) {
+MSPSKEL_INLINE const Vector3& SkeletonDecimater::axis(Index node) {
   Node& n = nodes_[node];
   if (!n.axis_known) n.axis = sets_[node].axis();
   n.axis_known = true;
   return n.axis;
 }
 
-inline double SkeletonDecimater::length(Index e) const {
+MSPSKEL_INLINE double SkeletonDecimater::length(Index e) const {
   const auto [u, v] = complex_.ends(e);
   return (nodes_[u].position - nodes_[v].position).norm();
 }
 
 // Grows with every change of either end: the kept end's revision becomes the sum of both and one more.
-inline std::uint32_t SkeletonDecimater::revision(Index e) const {
+MSPSKEL_INLINE std::uint32_t SkeletonDecimater::revision(Index e) const {
   const auto [u, v] = complex_.ends(e);
   return nodes_[u].revision + nodes_[v].revision;
 }
 
-inline CostTerms SkeletonDecimater::cost_terms(Index e) {
+MSPSKEL_INLINE CostTerms SkeletonDecimater::cost_terms(Index e) {
   const auto [u, v] = complex_.ends(e);
   CostTerms terms;
   terms.perimeter_ratio = perimeter_ratio(nodes_[u].perimeter, nodes_[v].perimeter);
@@ -76,7 +79,7 @@ inline CostTerms SkeletonDecimater::cost_terms(Index e) {
   return terms;
 }
 
-inline double SkeletonDecimater::cost(Index e) {
+MSPSKEL_INLINE double SkeletonDecimater::cost(Index e) {
   if (options_.cost) {
     const double cost = options_.cost(cost_terms(e));
     return std::isnan(cost) ? std::numeric_limits<double>::infinity() : cost;
@@ -85,12 +88,12 @@ inline double SkeletonDecimater::cost(Index e) {
   return total_cost(cost_terms(e), options_.lambda, options_.angle_floor);
 }
 
-inline float SkeletonDecimater::rounded_length(Index e) const {
+MSPSKEL_INLINE float SkeletonDecimater::rounded_length(Index e) const {
   constexpr double kNothing = 1e-10;  // far below any length that matters, in the normalised frame
   return static_cast<float>(length(e) + kNothing);
 }
 
-inline SkeletonDecimater::Key SkeletonDecimater::key(Index e) {
+MSPSKEL_INLINE SkeletonDecimater::Key SkeletonDecimater::key(Index e) {
   constexpr double kNothing = 1e-20;  // where points coincide, rounding is all
   return {static_cast<float>(cost(e) + kNothing), rounded_length(e), e, revision(e)};
 }
@@ -98,14 +101,14 @@ inline SkeletonDecimater::Key SkeletonDecimater::key(Index e) {
 // ---- the queue
 // -------------------------------------------------------------------------------------------------------
 
-inline void SkeletonDecimater::push(const Key& key) {
+MSPSKEL_INLINE void SkeletonDecimater::push(const Key& key) {
   state_[key.edge] = State::kQueued;
   heap_.push_back(key);
   std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
   ++counts_.queue_operations;
 }
 
-inline SkeletonDecimater::Key SkeletonDecimater::pop() {
+MSPSKEL_INLINE SkeletonDecimater::Key SkeletonDecimater::pop() {
   std::pop_heap(heap_.begin(), heap_.end(), std::greater<>());
   const Key top = heap_.back();
   heap_.pop_back();
@@ -113,7 +116,7 @@ inline SkeletonDecimater::Key SkeletonDecimater::pop() {
   return top;
 }
 
-inline bool SkeletonDecimater::step() {
+MSPSKEL_INLINE bool SkeletonDecimater::step() {
   while (!heap_.empty()) {
     const Key top = pop();
     if (!complex_.is_edge(top.edge)) continue;
@@ -129,7 +132,7 @@ inline bool SkeletonDecimater::step() {
   return leave_dead_end();
 }
 
-inline void SkeletonDecimater::run(const Execution& execution) {
+MSPSKEL_INLINE void SkeletonDecimater::run(const Execution& execution) {
   constexpr Index kInterval = 256;
   const double vertices = std::max<Index>(complex_.vertex_count(), 1);
   Index steps = 0;
@@ -143,13 +146,13 @@ inline void SkeletonDecimater::run(const Execution& execution) {
 // ---- one edge
 // --------------------------------------------------------------------------------------------------------
 
-inline bool SkeletonDecimater::is_noise(Index e) const {
+MSPSKEL_INLINE bool SkeletonDecimater::is_noise(Index e) const {
   const auto [u, v] = complex_.ends(e);
   return edge_saturation(sets_[u], sets_[v]) < options_.saturation_threshold;
 }
 
 // Fig. 4.5: whether no adjacent edge can change the ends any more.
-inline bool SkeletonDecimater::has_settled_neighbours(Index e) const {
+MSPSKEL_INLINE bool SkeletonDecimater::has_settled_neighbours(Index e) const {
   for (const Index node : complex_.ends(e))
     for (Index d = complex_.first_dart(node); d != kNone; d = complex_.next_dart(d))
       if (complex_.face_count(d / 2) > 0 || is_noise(d / 2)) return false;
@@ -157,7 +160,7 @@ inline bool SkeletonDecimater::has_settled_neighbours(Index e) const {
 }
 
 // Collapses the edge or sets it aside; returns whether it collapsed.
-inline bool SkeletonDecimater::process(Index e) {
+MSPSKEL_INLINE bool SkeletonDecimater::process(Index e) {
   if (complex_.face_count(e) > 0) return try_collapse(e, false);
   if (options_.one_dimensional == EdgePolicy::kSaturation && is_noise(e)) return try_collapse(e, false);
   const bool listed = options_.one_dimensional == EdgePolicy::kKeep || has_settled_neighbours(e);
@@ -168,7 +171,7 @@ inline bool SkeletonDecimater::process(Index e) {
 
 // The end with fewer edges moves, since its edges are relinked one by one. Merged edges keep the kept end's
 // place in the queue, so the choice matters and has to be one of geometry, not of numbering or rounding.
-inline bool SkeletonDecimater::outranks(Index u, Index v) const {
+MSPSKEL_INLINE bool SkeletonDecimater::outranks(Index u, Index v) const {
   const Index more = complex_.degree(u) - complex_.degree(v);
   if (more != 0) return more > 0;
   // Errors and distances may vanish but for rounding, so they are seen beside 1.
@@ -184,7 +187,7 @@ inline bool SkeletonDecimater::outranks(Index u, Index v) const {
   return true;
 }
 
-inline bool SkeletonDecimater::try_collapse(Index e, bool allow_parallel) {
+MSPSKEL_INLINE bool SkeletonDecimater::try_collapse(Index e, bool allow_parallel) {
   const auto [first, second] = complex_.ends(e);
   const bool keep_first = outranks(first, second);
   const Index kept = keep_first ? first : second, gone = keep_first ? second : first;
@@ -214,7 +217,7 @@ inline bool SkeletonDecimater::try_collapse(Index e, bool allow_parallel) {
 
 // The saturation of an edge changes with its ends only: edges aside return if theirs fell below the
 // threshold.
-inline void SkeletonDecimater::reopen_noise(Index node) {
+MSPSKEL_INLINE void SkeletonDecimater::reopen_noise(Index node) {
   for (Index d = complex_.first_dart(node); d != kNone; d = complex_.next_dart(d)) {
     const Index e = d / 2;
     if ((state_[e] == State::kParked || state_[e] == State::kListed) && is_noise(e)) {
@@ -226,7 +229,7 @@ inline void SkeletonDecimater::reopen_noise(Index node) {
 
 // A loop of three edges round a handle blocks each of them for good, whatever else collapses; only the
 // deletion of an edge at one of their ends can free them.
-inline void SkeletonDecimater::reopen_refused(Index node) {
+MSPSKEL_INLINE void SkeletonDecimater::reopen_refused(Index node) {
   for (Index d = complex_.first_dart(node); d != kNone; d = complex_.next_dart(d))
     if (state_[d / 2] == State::kRefused) push(key(d / 2));
 }
@@ -234,7 +237,7 @@ inline void SkeletonDecimater::reopen_refused(Index node) {
 // ---- dead ends
 // -------------------------------------------------------------------------------------------------------
 
-inline bool SkeletonDecimater::leave_dead_end() {
+MSPSKEL_INLINE bool SkeletonDecimater::leave_dead_end() {
   if (complex_.face_count() == 0) return options_.keep_topology && cut_surplus_loops();
   if (living_.empty()) living_ = detail::living_edges(complex_);
   living_.erase(std::remove_if(living_.begin(), living_.end(), [&](Index e) { return !complex_.is_edge(e); }),
@@ -244,7 +247,7 @@ inline bool SkeletonDecimater::leave_dead_end() {
   return true;
 }
 
-inline bool SkeletonDecimater::collapse_to_parallel_edges() {
+MSPSKEL_INLINE bool SkeletonDecimater::collapse_to_parallel_edges() {
   std::vector<Key> candidates;
   for (const Index e : living_)
     if (complex_.face_count(e) > 0) candidates.push_back(key(e));
@@ -259,7 +262,7 @@ inline bool SkeletonDecimater::collapse_to_parallel_edges() {
 
 // Deletes the longest edge that has one face, with that face: an elementary collapse, which keeps the
 // homotopy type.
-inline bool SkeletonDecimater::thin_sheet() {
+MSPSKEL_INLINE bool SkeletonDecimater::thin_sheet() {
   Index longest = kNone;
   for (const Index e : living_)
     if (complex_.face_count(e) == 1 && (longest == kNone || rounded_length(e) > rounded_length(longest)))
@@ -273,7 +276,7 @@ inline bool SkeletonDecimater::thin_sheet() {
   return true;
 }
 
-inline void SkeletonDecimater::delete_largest_face() {
+MSPSKEL_INLINE void SkeletonDecimater::delete_largest_face() {
   Index largest = kNone;
   double largest_area = -1.0;
   for (const Index e : living_)
@@ -294,7 +297,7 @@ inline void SkeletonDecimater::delete_largest_face() {
 
 // Without faces, loops that depend on others by their labels are the traces of deleted faces: cut them,
 // longest edges first. Loops without any label go too.
-inline bool SkeletonDecimater::cut_surplus_loops() {
+MSPSKEL_INLINE bool SkeletonDecimater::cut_surplus_loops() {
   const std::vector<Index> surplus = surplus_edges(complex_, [&](Index a, Index b) {
     return std::make_pair(rounded_length(a), a) < std::make_pair(rounded_length(b), b);
   });
@@ -310,27 +313,7 @@ inline bool SkeletonDecimater::cut_surplus_loops() {
 // ---- result
 // ----------------------------------------------------------------------------------------------------------
 
-namespace detail {
-
-// The edges that are left, between the numbers of their ends.
-inline std::vector<CollapsedEdge> collapsed_edges(const SkeletonComplex& complex,
-                                                  const std::vector<Index>& number) {
-  std::vector<CollapsedEdge> edges;
-  for (const Index e : living_edges(complex)) {
-    const auto [u, v] = complex.ends(e);
-    const bool forward = number[u] < number[v];
-    edges.push_back({std::min(number[u], number[v]), std::max(number[u], number[v]),
-                     complex.label(forward ? 2 * e : 2 * e + 1)});
-  }
-  std::stable_sort(edges.begin(), edges.end(), [](const CollapsedEdge& a, const CollapsedEdge& b) {
-    return a.first != b.first ? a.first < b.first : a.second < b.second;
-  });
-  return edges;
-}
-
-}  // namespace detail
-
-inline CollapsedSkeleton SkeletonDecimater::result() const {
+MSPSKEL_INLINE CollapsedSkeleton SkeletonDecimater::result() const {
   CollapsedSkeleton skeleton;
   skeleton.counts = counts_;
   std::vector<Index> number(sets_.size(), kNone), parent(parent_);
@@ -356,8 +339,9 @@ inline CollapsedSkeleton SkeletonDecimater::result() const {
   return skeleton;
 }
 
-inline CollapsedSkeleton collapse_complex(SkeletonComplex complex, std::vector<MergingSet> sets,
-                                          const CollapseOptions& options, const Execution& execution) {
+MSPSKEL_INLINE CollapsedSkeleton collapse_complex(SkeletonComplex complex, std::vector<MergingSet> sets,
+                                                  const CollapseOptions& options,
+                                                  const Execution& execution) {
   SkeletonDecimater decimater(std::move(complex), std::move(sets), options);
   decimater.run(execution);
   return decimater.result();

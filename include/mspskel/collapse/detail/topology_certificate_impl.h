@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "mspskel/base/linkage.h"
 #include "mspskel/collapse/complex_topology.h"
 #include "mspskel/collapse/crossing_labels.h"
 #include "mspskel/mesh/mesh_report.h"
@@ -194,8 +195,8 @@ inline void judge(const std::string& obstacle, TopologyCertificate& c) {
 
 }  // namespace detail
 
-inline std::vector<Index> component_of_nodes(const SurfaceSnapshot& surface, Index node_count,
-                                             const std::vector<Index>& node_of_vertex) {
+MSPSKEL_INLINE std::vector<Index> component_of_nodes(const SurfaceSnapshot& surface, Index node_count,
+                                                     const std::vector<Index>& node_of_vertex) {
   std::vector<Index> component(node_count, kNone);
   for (std::size_t v = 0; v < node_of_vertex.size(); ++v) {
     const Index node = node_of_vertex[v];
@@ -208,9 +209,11 @@ inline std::vector<Index> component_of_nodes(const SurfaceSnapshot& surface, Ind
   return component;
 }
 
-inline TopologyCertificate certify_topology(const SurfaceSnapshot& surface, const VolumeCocycles& cocycles,
-                                            const BoundingVolumeHierarchy& hierarchy,
-                                            const PolylineGraph& graph, const CertificateOptions& options) {
+MSPSKEL_INLINE TopologyCertificate certify_topology(const SurfaceSnapshot& surface,
+                                                    const VolumeCocycles& cocycles,
+                                                    const BoundingVolumeHierarchy& hierarchy,
+                                                    const PolylineGraph& graph,
+                                                    const CertificateOptions& options) {
   detail::check_graph(surface, graph);
   TopologyCertificate c;
   c.components = surface.component_count;

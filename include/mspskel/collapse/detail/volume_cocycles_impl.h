@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "mspskel/base/linkage.h"
 #include "mspskel/collapse/detail/flat_regions.h"
 #include "mspskel/collapse/detail/homology_generators.h"
 #include "mspskel/collapse/detail/linking_cocycles.h"
@@ -329,10 +330,10 @@ inline VolumeCocycles CocycleSearch::run(std::vector<SliceCandidate> candidates)
 
 }  // namespace detail
 
-inline VolumeCocycles compute_volume_cocycles(const SurfaceSnapshot& surface,
-                                              std::vector<SliceCandidate> candidates,
-                                              const CocycleOptions& options,
-                                              const ProgressCallback& progress) {
+MSPSKEL_INLINE VolumeCocycles compute_volume_cocycles(const SurfaceSnapshot& surface,
+                                                      std::vector<SliceCandidate> candidates,
+                                                      const CocycleOptions& options,
+                                                      const ProgressCallback& progress) {
   validate(options);
   for (const SliceCandidate& c : candidates)
     if (c.vertex < 0 || c.vertex >= surface.vertex_count() || surface.vertex_halfedge[c.vertex] == kNone ||

@@ -1,7 +1,9 @@
 #pragma once
 
+#include "mspskel/base/linkage.h"
 #include "mspskel/graph/detail/arc_leaves.h"
 #include "mspskel/graph/detail/arc_sections.h"
+#include "mspskel/graph/detail/polyline_ends.h"
 #include "mspskel/graph/extend_ends.h"
 
 namespace mspskel {
@@ -27,19 +29,6 @@ inline Index most_uncovered(const SurfaceSnapshot& surface, const ArcBalls& ball
     }
   }
   return best;
-}
-
-// Points from `from` straight towards `target` until the maximal ball nearly touches it.
-inline void lead_towards(std::vector<Vector3>& points, const Vector3& target,
-                         const BoundingVolumeHierarchy& solid, double step) {
-  const Vector3 from = points.back(), way = target - from;
-  const double length = way.norm();
-  for (double walked = step; walked < length; walked += step) {
-    const Vector3 x = from + way * (walked / length);
-    const double clearance = solid.distance(x);
-    if (clearance > 0.9 * (length - walked) || clearance < 0.25 * step) break;
-    points.push_back(x);
-  }
 }
 
 // Leads the polyline on from its last point, or, if that does not see the target, from the start.
@@ -81,8 +70,8 @@ inline bool lead_to_target(std::vector<Vector3>& points, const Vector3& target, 
 
 }  // namespace detail
 
-inline Index aim_ends(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
-                      double step, const Execution& execution) {
+MSPSKEL_INLINE Index aim_ends(ArcGraph& graph, const SurfaceSnapshot& surface,
+                              const BoundingVolumeHierarchy& solid, double step, const Execution& execution) {
   const detail::ArcBalls balls(graph, solid, execution);
   const detail::ArcLeaves leaves(graph, graph.incidence());
   Index aimed = 0;
@@ -105,8 +94,8 @@ inline Index aim_ends(ArcGraph& graph, const SurfaceSnapshot& surface, const Bou
   return aimed;
 }
 
-inline Index aim_at_tips(ArcGraph& graph, const BoundingVolumeHierarchy& solid,
-                         const std::vector<LimbTip>& tips, double step, double slack) {
+MSPSKEL_INLINE Index aim_at_tips(ArcGraph& graph, const BoundingVolumeHierarchy& solid,
+                                 const std::vector<LimbTip>& tips, double step, double slack) {
   const detail::ArcLeaves leaves(graph, graph.incidence());
   const std::vector<std::size_t> leaf_of_tip = detail::leaves_of_tips(graph, leaves, tips);
   Index aimed = 0;

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <numeric>
 
+#include "mspskel/base/linkage.h"
+
 namespace mspskel {
 
-inline void ArcGraph::move_hub(Index hub, const Vector3& position) {
+MSPSKEL_INLINE void ArcGraph::move_hub(Index hub, const Vector3& position) {
   hub_position[hub] = position;
   for (Arc& arc : arcs) {
     if (!arc.alive) continue;
@@ -15,7 +17,7 @@ inline void ArcGraph::move_hub(Index hub, const Vector3& position) {
   }
 }
 
-inline std::vector<std::vector<Index>> ArcGraph::incidence() const {
+MSPSKEL_INLINE std::vector<std::vector<Index>> ArcGraph::incidence() const {
   std::vector<std::vector<Index>> at(hub_position.size());
   for (Index a = 0; a < arc_count(); ++a)
     if (arcs[a].alive)
@@ -23,7 +25,7 @@ inline std::vector<std::vector<Index>> ArcGraph::incidence() const {
   return at;
 }
 
-inline ArcGraphType homotopy_type(const ArcGraph& graph) {
+MSPSKEL_INLINE ArcGraphType homotopy_type(const ArcGraph& graph) {
   ArcGraphType type;
   std::vector<Index> parent(graph.hub_position.size());
   std::iota(parent.begin(), parent.end(), 0);
@@ -45,19 +47,19 @@ inline ArcGraphType homotopy_type(const ArcGraph& graph) {
   return type;
 }
 
-inline double arc_length(const Arc& arc) {
+MSPSKEL_INLINE double arc_length(const Arc& arc) {
   double length = 0;
   for (std::size_t i = 1; i < arc.points.size(); ++i) length += (arc.points[i] - arc.points[i - 1]).norm();
   return length;
 }
 
-inline std::vector<Vector3> points_from(const Arc& arc, int end) {
+MSPSKEL_INLINE std::vector<Vector3> points_from(const Arc& arc, int end) {
   std::vector<Vector3> points = arc.points;
   if (end == 1) std::reverse(points.begin(), points.end());
   return points;
 }
 
-inline std::vector<Vector3> resampled(const Arc& arc, double step, Index min_edges) {
+MSPSKEL_INLINE std::vector<Vector3> resampled(const Arc& arc, double step, Index min_edges) {
   if (arc.hub[0] == arc.hub[1]) min_edges = std::max<Index>(min_edges, 3);
   const double length = arc_length(arc);
   const Index count = std::max(min_edges, static_cast<Index>(std::ceil(length / step - 1e-9)));
@@ -78,7 +80,7 @@ inline std::vector<Vector3> resampled(const Arc& arc, double step, Index min_edg
   return points;
 }
 
-inline void subdivide(ArcGraph& graph, double longest) {
+MSPSKEL_INLINE void subdivide(ArcGraph& graph, double longest) {
   std::vector<Vector3> points;
   for (Arc& arc : graph.arcs) {
     if (!arc.alive) continue;
@@ -93,7 +95,7 @@ inline void subdivide(ArcGraph& graph, double longest) {
   }
 }
 
-inline Index split_arc(ArcGraph& graph, Index arc, std::size_t point) {
+MSPSKEL_INLINE Index split_arc(ArcGraph& graph, Index arc, std::size_t point) {
   Arc& first = graph.arcs[arc];
   const Index hub = graph.add_hub(first.points[point]);
   Arc rest = first;
@@ -105,7 +107,7 @@ inline Index split_arc(ArcGraph& graph, Index arc, std::size_t point) {
   return hub;
 }
 
-inline void remove_leaf_arc(ArcGraph& graph, Index arc, Index keep) {
+MSPSKEL_INLINE void remove_leaf_arc(ArcGraph& graph, Index arc, Index keep) {
   Arc& gone = graph.arcs[arc];
   const Index tip = gone.hub[0] == keep ? gone.hub[1] : gone.hub[0];
   gone.alive = false;
@@ -117,7 +119,7 @@ inline void remove_leaf_arc(ArcGraph& graph, Index arc, Index keep) {
     }
 }
 
-inline void dissolve_through_hubs(ArcGraph& graph) {
+MSPSKEL_INLINE void dissolve_through_hubs(ArcGraph& graph) {
   auto at = graph.incidence();
   std::vector<Index> arc_now(graph.arcs.size());
   for (Index a = 0; a < graph.arc_count(); ++a) arc_now[a] = a;
@@ -157,7 +159,7 @@ inline void dissolve_through_hubs(ArcGraph& graph) {
   }
 }
 
-inline void contract_arc(ArcGraph& graph, Index arc, const Vector3& position) {
+MSPSKEL_INLINE void contract_arc(ArcGraph& graph, Index arc, const Vector3& position) {
   const Index keep = graph.arcs[arc].hub[0], gone = graph.arcs[arc].hub[1];
   graph.arcs[arc].alive = false;
   graph.hub_alive[gone] = false;

@@ -4,6 +4,9 @@
 #include <tuple>
 #include <utility>
 
+#include "mspskel/base/linkage.h"
+#include "mspskel/collapse/detail/collapsed_edges.h"
+
 namespace mspskel {
 namespace detail {
 
@@ -142,8 +145,8 @@ class BranchFilter {
 
 }  // namespace detail
 
-inline BranchFilterResult filter_branches(const CollapsedSkeleton& skeleton,
-                                          const BranchFilterOptions& options) {
+MSPSKEL_INLINE BranchFilterResult filter_branches(const CollapsedSkeleton& skeleton,
+                                                  const BranchFilterOptions& options) {
   validate(options);
   return detail::BranchFilter(skeleton, options).run();
 }

@@ -6,6 +6,8 @@
 #include <string>
 
 #include "mspskel/base/even_directions.h"
+#include "mspskel/base/linkage.h"
+#include "mspskel/mesh/detail/component_measures.h"
 #include "mspskel/mesh/mesh_report.h"
 
 namespace mspskel {
@@ -151,7 +153,7 @@ inline void check_topology(const SurfaceSnapshot& snapshot, const CurveSkeleton&
 
 }  // namespace detail
 
-inline void validate(const CurveSkeleton& skeleton) {
+MSPSKEL_INLINE void validate(const CurveSkeleton& skeleton) {
   const Index n = static_cast<Index>(skeleton.nodes.size());
   for (Index i = 0; i < n; ++i)
     if (!skeleton.nodes[i].position.allFinite() || !std::isfinite(skeleton.nodes[i].radius))
@@ -168,9 +170,9 @@ inline void validate(const CurveSkeleton& skeleton) {
                        std::to_string(skeleton.node_of_vertex[v]) + ", of " + std::to_string(n) + " nodes");
 }
 
-inline SkeletonChecks check_skeleton(const SurfaceSnapshot& snapshot,
-                                     const BoundingVolumeHierarchy& hierarchy, const CurveSkeleton& skeleton,
-                                     const Execution& execution) {
+MSPSKEL_INLINE SkeletonChecks check_skeleton(const SurfaceSnapshot& snapshot,
+                                             const BoundingVolumeHierarchy& hierarchy,
+                                             const CurveSkeleton& skeleton, const Execution& execution) {
   validate(skeleton);
   if (skeleton.nodes.empty()) throw NoSkeletonError("the skeleton has no nodes");
   SkeletonChecks checks;

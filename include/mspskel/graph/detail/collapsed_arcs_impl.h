@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "mspskel/base/linkage.h"
 #include "mspskel/mesh/detail/moment_frame.h"
 
 namespace mspskel {
@@ -154,14 +155,15 @@ inline void average_over_map(const SurfaceSnapshot& surface, const std::vector<d
 
 }  // namespace detail
 
-inline ArcGraph make_arc_graph(const CollapsedSkeleton& collapsed) {
+MSPSKEL_INLINE ArcGraph make_arc_graph(const CollapsedSkeleton& collapsed) {
   return detail::ArcTracer(collapsed).trace();
 }
 
-inline CurveSkeleton make_curve_skeleton(const ArcGraph& graph, const SurfaceSnapshot& surface,
-                                         const BoundingVolumeHierarchy& solid,
-                                         const std::vector<double>& perimeter,
-                                         const std::vector<double>& error, const Execution& execution) {
+MSPSKEL_INLINE CurveSkeleton make_curve_skeleton(const ArcGraph& graph, const SurfaceSnapshot& surface,
+                                                 const BoundingVolumeHierarchy& solid,
+                                                 const std::vector<double>& perimeter,
+                                                 const std::vector<double>& error,
+                                                 const Execution& execution) {
   CurveSkeleton skeleton;
   const auto at = graph.incidence();
   std::vector<Index> hub_node(graph.hub_position.size(), kNone);

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <limits>
 
+#include "mspskel/base/linkage.h"
 #include "mspskel/graph/detail/arc_leaves.h"
 #include "mspskel/graph/detail/arc_sections.h"
 #include "mspskel/graph/detail/graph_points.h"
+#include "mspskel/graph/detail/polyline_ends.h"
 
 namespace mspskel {
 namespace detail {
@@ -245,16 +247,16 @@ class LimbCompletion {
 
 }  // namespace detail
 
-inline Index complete_limbs(ArcGraph& graph, const SurfaceSnapshot& surface,
-                            const BoundingVolumeHierarchy& solid, const VertexSlices& slices,
-                            std::vector<LimbTip>& tips, const LimbOptions& options, double step,
-                            detail::InnerGraph& inner, const Execution& execution) {
+MSPSKEL_INLINE Index complete_limbs(ArcGraph& graph, const SurfaceSnapshot& surface,
+                                    const BoundingVolumeHierarchy& solid, const VertexSlices& slices,
+                                    std::vector<LimbTip>& tips, const LimbOptions& options, double step,
+                                    detail::InnerGraph& inner, const Execution& execution) {
   return detail::LimbCompletion(graph, surface, solid, slices, tips, options, step, inner, execution).run();
 }
 
-inline Index complete_limbs(ArcGraph& graph, const SurfaceSnapshot& surface,
-                            const BoundingVolumeHierarchy& solid, const VertexSlices& slices,
-                            std::vector<LimbTip>& tips, const LimbOptions& options, double step) {
+MSPSKEL_INLINE Index complete_limbs(ArcGraph& graph, const SurfaceSnapshot& surface,
+                                    const BoundingVolumeHierarchy& solid, const VertexSlices& slices,
+                                    std::vector<LimbTip>& tips, const LimbOptions& options, double step) {
   detail::InnerGraph inner(surface, solid);
   return complete_limbs(graph, surface, solid, slices, tips, options, step, inner);
 }

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <numeric>
 
+#include "mspskel/base/linkage.h"
+
 namespace mspskel {
 
-inline std::vector<std::vector<Index>> adjacency(const CurveSkeleton& skeleton) {
+MSPSKEL_INLINE std::vector<std::vector<Index>> adjacency(const CurveSkeleton& skeleton) {
   std::vector<std::vector<Index>> next(skeleton.nodes.size());
   for (const auto& [a, b] : skeleton.edges) {
     next[a].push_back(b);
@@ -15,7 +17,7 @@ inline std::vector<std::vector<Index>> adjacency(const CurveSkeleton& skeleton) 
   return next;
 }
 
-inline std::vector<Branch> branches(const CurveSkeleton& skeleton) {
+MSPSKEL_INLINE std::vector<Branch> branches(const CurveSkeleton& skeleton) {
   const auto next = adjacency(skeleton);
   std::vector<std::vector<bool>> walked(next.size());
   for (std::size_t v = 0; v < next.size(); ++v) walked[v].assign(next[v].size(), false);
@@ -46,7 +48,7 @@ inline std::vector<Branch> branches(const CurveSkeleton& skeleton) {
   return result;
 }
 
-inline GraphCounts count_graph(const CurveSkeleton& skeleton) {
+MSPSKEL_INLINE GraphCounts count_graph(const CurveSkeleton& skeleton) {
   GraphCounts counts;
   counts.nodes = static_cast<Index>(skeleton.nodes.size());
   counts.edges = static_cast<Index>(skeleton.edges.size());

@@ -1,17 +1,10 @@
 #pragma once
 
+#include "mspskel/base/linkage.h"
+#include "mspskel/graph/detail/polyline_ends.h"
+
 namespace mspskel {
 namespace detail {
-
-// The point of a polyline at the given length before its last point, or its first point.
-inline Vector3 point_before_end(const std::vector<Vector3>& points, double length) {
-  for (std::size_t i = points.size() - 1; i > 0; --i) {
-    const double edge = (points[i] - points[i - 1]).norm();
-    if (edge >= length) return points[i] + (points[i - 1] - points[i]) * (length / edge);
-    length -= edge;
-  }
-  return points.front();
-}
 
 // Grows the polyline at its back.
 inline void grow(std::vector<Vector3>& points, const BoundingVolumeHierarchy& solid,
@@ -43,8 +36,8 @@ inline void grow(std::vector<Vector3>& points, const BoundingVolumeHierarchy& so
 
 }  // namespace detail
 
-inline void extend_ends(ArcGraph& graph, const BoundingVolumeHierarchy& solid,
-                        const ExtensionOptions& options) {
+MSPSKEL_INLINE void extend_ends(ArcGraph& graph, const BoundingVolumeHierarchy& solid,
+                                const ExtensionOptions& options) {
   validate(options);
   const auto at = graph.incidence();
   for (Index h = 0; h < graph.hub_count(); ++h) {

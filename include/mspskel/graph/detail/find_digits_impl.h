@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "mspskel/base/linkage.h"
 #include "mspskel/graph/detail/arc_leaves.h"
 #include "mspskel/graph/detail/growing_parts.h"
 #include "mspskel/graph/detail/inward_chord.h"
@@ -210,9 +211,9 @@ inline std::vector<Digit> without_shared(const std::vector<std::vector<Digit>>& 
 
 }  // namespace detail
 
-inline std::vector<Digit> find_digits(const ArcGraph& graph, const SurfaceSnapshot& surface,
-                                      const BoundingVolumeHierarchy& solid, const LimbOptions& options,
-                                      const Execution& execution) {
+MSPSKEL_INLINE std::vector<Digit> find_digits(const ArcGraph& graph, const SurfaceSnapshot& surface,
+                                              const BoundingVolumeHierarchy& solid,
+                                              const LimbOptions& options, const Execution& execution) {
   const std::vector<detail::LeafArc> leaves = detail::ArcLeaves(graph, graph.incidence()).leaf;
   std::vector<std::vector<Digit>> found(leaves.size());
   parallel_for(

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mspskel/graph/center_arcs.h"
+#include "mspskel/graph/detail/hub_components.h"
 #include "mspskel/graph/detail/near_vertices.h"
 #include "mspskel/graph/route_inside.h"
 

@@ -32,5 +32,11 @@ inline std::optional<InwardChord> inward_chord(const SurfaceSnapshot& surface,
   return InwardChord{start, hit->distance};
 }
 
+// Half the chord inward from a vertex; 0 if there is none.
+inline double half_chord(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid, Index v) {
+  const auto chord = inward_chord(surface, solid, v);
+  return chord ? 0.5 * chord->length : 0.0;
+}
+
 }  // namespace detail
 }  // namespace mspskel

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <optional>
 
+#include "mspskel/base/linkage.h"
 #include "mspskel/graph/detail/axis_stretch.h"
+#include "mspskel/graph/detail/hub_components.h"
 
 namespace mspskel {
 namespace detail {
@@ -31,8 +33,8 @@ inline std::optional<std::vector<Vector3>> axis_points(const SolidMoments& momen
 
 }  // namespace detail
 
-inline Index lay_axes(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
-                      const std::vector<LimbTip>& tips) {
+MSPSKEL_INLINE Index lay_axes(ArcGraph& graph, const SurfaceSnapshot& surface,
+                              const BoundingVolumeHierarchy& solid, const std::vector<LimbTip>& tips) {
   const std::vector<bool> limbed = components_with_limbs(surface, tips);
   if (std::find(limbed.begin(), limbed.end(), false) == limbed.end()) return 0;
   const std::vector<Index> twice_euler = twice_euler_characteristics(surface);

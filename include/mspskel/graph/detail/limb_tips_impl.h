@@ -5,13 +5,15 @@
 #include <limits>
 #include <optional>
 
+#include "mspskel/base/linkage.h"
 #include "mspskel/graph/detail/growing_parts.h"
+#include "mspskel/graph/detail/inward_chord.h"
 #include "mspskel/mesh/inner_distance.h"
 
 namespace mspskel {
 
-inline std::vector<bool> components_with_limbs(const SurfaceSnapshot& surface,
-                                               const std::vector<LimbTip>& tips) {
+MSPSKEL_INLINE std::vector<bool> components_with_limbs(const SurfaceSnapshot& surface,
+                                                       const std::vector<LimbTip>& tips) {
   std::vector<bool> limbed(static_cast<std::size_t>(surface.component_count), false);
   for (const LimbTip& tip : tips)
     if (tip.measures.depth > 0) limbed[surface.component[tip.vertex]] = true;
@@ -23,9 +25,6 @@ namespace detail {
 // A depth from the middle of the shape is measured between vertices of the surface; in smallest features.
 inline constexpr double kLeastTipDepth = 2.5;
 inline constexpr double kLeastThinTipDepth = 3.4;
-
-// So much of a limb's end, in half widths, has its mean in the middle of it, on flat ends as well.
-inline constexpr double kEnd = 0.75;
 
 // The limbs that the parts beyond a distance stand for when they meet.
 class LimbTipSearch {
@@ -263,8 +262,8 @@ inline std::vector<std::optional<Vector3>> middle_of_components(const SurfaceSna
 
 }  // namespace detail
 
-inline void drop_tips_in_walls(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
-                               const std::vector<bool>& shells, std::vector<LimbTip>& tips) {
+MSPSKEL_INLINE void drop_tips_in_walls(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
+                                       const std::vector<bool>& shells, std::vector<LimbTip>& tips) {
   constexpr double kThin = 0.45;
   const auto in_wall = [&](const LimbTip& tip) {
     if (!shells[surface.component[tip.vertex]]) return false;
@@ -275,9 +274,10 @@ inline void drop_tips_in_walls(const SurfaceSnapshot& surface, const BoundingVol
   tips.erase(std::remove_if(tips.begin(), tips.end(), in_wall), tips.end());
 }
 
-inline std::vector<LimbTip> find_limb_tips(const SurfaceSnapshot& surface,
-                                           const BoundingVolumeHierarchy& solid, const VertexSlices& slices,
-                                           const LimbOptions& options, const Execution& execution) {
+MSPSKEL_INLINE std::vector<LimbTip> find_limb_tips(const SurfaceSnapshot& surface,
+                                                   const BoundingVolumeHierarchy& solid,
+                                                   const VertexSlices& slices, const LimbOptions& options,
+                                                   const Execution& execution) {
   const SurfaceWays ways(surface);
   const auto middle = detail::middle_of_components(surface, ways, solid, slices);
   const std::vector<double> distance = inner_distances(surface, ways, solid, middle, execution);
@@ -293,8 +293,8 @@ inline std::vector<LimbTip> find_limb_tips(const SurfaceSnapshot& surface,
   return tips;
 }
 
-inline std::vector<LimbTip> on_coarser_surface(std::vector<LimbTip> tips,
-                                               const std::vector<Index>& coarse_vertex) {
+MSPSKEL_INLINE std::vector<LimbTip> on_coarser_surface(std::vector<LimbTip> tips,
+                                                       const std::vector<Index>& coarse_vertex) {
   for (LimbTip& tip : tips) {
     tip.vertex = coarse_vertex[tip.vertex];
     for (Index& v : tip.cap) v = coarse_vertex[v];

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "mspskel/base/linkage.h"
+
 namespace mspskel {
 namespace detail {
 
@@ -29,7 +31,7 @@ inline std::size_t least_points(const ArcGraph& graph, Index arc) {
 
 }  // namespace detail
 
-inline Index limit_nodes(ArcGraph& graph, const BoundingVolumeHierarchy& solid, Index nodes) {
+MSPSKEL_INLINE Index limit_nodes(ArcGraph& graph, const BoundingVolumeHierarchy& solid, Index nodes) {
   // Per arc and point: how far it lies off its neighbours' chord; infinite where it has to stay.
   constexpr double kStays = std::numeric_limits<double>::infinity();
   std::vector<std::vector<double>> offset(graph.arcs.size());

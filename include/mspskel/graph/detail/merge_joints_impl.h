@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "mspskel/base/linkage.h"
+
 namespace mspskel {
 namespace detail {
 
@@ -23,7 +25,7 @@ inline void enter_ball(Arc& arc, int end, const Vector3& centre, double radius) 
 
 }  // namespace detail
 
-inline Index merge_joints(ArcGraph& graph, const BoundingVolumeHierarchy& solid, double overlap) {
+MSPSKEL_INLINE Index merge_joints(ArcGraph& graph, const BoundingVolumeHierarchy& solid, double overlap) {
   Index merged = 0;
   std::vector<double> radius(graph.hub_position.size(), 0.0);
   for (Index h = 0; h < graph.hub_count(); ++h)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "mspskel/base/linkage.h"
 #include "mspskel/graph/detail/arc_leaves.h"
 
 namespace mspskel {
@@ -32,7 +33,7 @@ inline Index remove_leaves_without_tip(ArcGraph& graph, const std::vector<LimbTi
 
 }  // namespace detail
 
-inline Index prune_branches(ArcGraph& graph, const std::vector<LimbTip>& tips) {
+MSPSKEL_INLINE Index prune_branches(ArcGraph& graph, const std::vector<LimbTip>& tips) {
   Index removed = 0;
   while (true) {
     dissolve_through_hubs(graph);
@@ -42,7 +43,7 @@ inline Index prune_branches(ArcGraph& graph, const std::vector<LimbTip>& tips) {
   }
 }
 
-inline Index remove_spurs(ArcGraph& graph, const BoundingVolumeHierarchy& solid) {
+MSPSKEL_INLINE Index remove_spurs(ArcGraph& graph, const BoundingVolumeHierarchy& solid) {
   Index removed = 0;
   while (true) {
     dissolve_through_hubs(graph);

@@ -5,6 +5,7 @@
 #include <tuple>
 #include <utility>
 
+#include "mspskel/base/linkage.h"
 #include "mspskel/graph/detail/arc_leaves.h"
 #include "mspskel/graph/detail/graph_points.h"
 
@@ -164,9 +165,9 @@ class DigitArcs {
 
 }  // namespace detail
 
-inline Index reach_digits(ArcGraph& graph, const SurfaceSnapshot& surface,
-                          const BoundingVolumeHierarchy& solid, const std::vector<Digit>& digits, double step,
-                          double joint_overlap) {
+MSPSKEL_INLINE Index reach_digits(ArcGraph& graph, const SurfaceSnapshot& surface,
+                                  const BoundingVolumeHierarchy& solid, const std::vector<Digit>& digits,
+                                  double step, double joint_overlap) {
   const Index added = detail::DigitArcs(graph, surface, solid, digits, step).run();
   if (added == 0) return 0;
   merge_joints(graph, solid, joint_overlap);

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "mspskel/base/linkage.h"
 #include "mspskel/collapse/complex_topology.h"
 
 namespace mspskel {
@@ -193,9 +194,10 @@ inline std::vector<Index> arcs_by_trust(const ArcGraph& graph, const std::vector
 
 }  // namespace detail
 
-inline CycleRestoration restore_cycles(ArcGraph& graph, const SurfaceSnapshot& surface,
-                                       const BoundingVolumeHierarchy& solid, const VolumeCocycles& cocycles,
-                                       const std::vector<bool>& doubtful) {
+MSPSKEL_INLINE CycleRestoration restore_cycles(ArcGraph& graph, const SurfaceSnapshot& surface,
+                                               const BoundingVolumeHierarchy& solid,
+                                               const VolumeCocycles& cocycles,
+                                               const std::vector<bool>& doubtful) {
   CycleRestoration result;
   if (cocycles.rank == 0) return result;
   const CrossingLabels crossings(cocycles);

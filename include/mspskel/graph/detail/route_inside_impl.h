@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "mspskel/base/linkage.h"
+#include "mspskel/graph/detail/hub_components.h"
+
 namespace mspskel {
 namespace detail {
 
@@ -26,27 +29,16 @@ inline void route_arc(Arc& arc, const BoundingVolumeHierarchy& solid, InnerGraph
   arc.points = std::move(points);
 }
 
-// The component of the surface that each hub stands for; kNone where no vertex maps to it or its arcs.
-inline std::vector<Index> hub_components(const ArcGraph& graph, const SurfaceSnapshot& surface) {
-  std::vector<Index> component(graph.hub_position.size(), kNone);
-  for (Index v = 0; v < surface.vertex_count(); ++v) {
-    if (graph.hub_of_vertex[v] != kNone) component[graph.hub_of_vertex[v]] = surface.component[v];
-    if (graph.arc_of_vertex[v] == kNone) continue;
-    for (const Index h : graph.arcs[graph.arc_of_vertex[v]].hub) component[h] = surface.component[v];
-  }
-  return component;
-}
-
 }  // namespace detail
 
-inline RoutingResult route_inside(ArcGraph& graph, const SurfaceSnapshot& surface,
-                                  const BoundingVolumeHierarchy& solid) {
+MSPSKEL_INLINE RoutingResult route_inside(ArcGraph& graph, const SurfaceSnapshot& surface,
+                                          const BoundingVolumeHierarchy& solid) {
   detail::InnerGraph inner(surface, solid);
   return route_inside(graph, surface, solid, inner);
 }
 
-inline RoutingResult route_inside(ArcGraph& graph, const SurfaceSnapshot& surface,
-                                  const BoundingVolumeHierarchy& solid, detail::InnerGraph& inner) {
+MSPSKEL_INLINE RoutingResult route_inside(ArcGraph& graph, const SurfaceSnapshot& surface,
+                                          const BoundingVolumeHierarchy& solid, detail::InnerGraph& inner) {
   RoutingResult result;
   std::vector<Index> hubs, arcs;
   for (Index h = 0; h < graph.hub_count(); ++h)
@@ -82,7 +74,7 @@ inline RoutingResult route_inside(ArcGraph& graph, const SurfaceSnapshot& surfac
   return result;
 }
 
-inline Index remove_crossing_leaves(ArcGraph& graph, const BoundingVolumeHierarchy& solid) {
+MSPSKEL_INLINE Index remove_crossing_leaves(ArcGraph& graph, const BoundingVolumeHierarchy& solid) {
   Index removed = 0;
   auto at = graph.incidence();
   for (Index a = 0; a < graph.arc_count(); ++a) {

@@ -3,23 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mspskel/base/linkage.h"
 #include "mspskel/graph/detail/inward_chord.h"
 #include "mspskel/graph/limb_measures.h"
 #include "mspskel/mesh/detail/solid_moments.h"
 
 namespace mspskel {
-namespace detail {
-
-// Half the chord inward from a vertex; 0 if there is none.
-inline double half_chord(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid, Index v) {
-  const auto chord = inward_chord(surface, solid, v);
-  return chord ? 0.5 * chord->length : 0.0;
-}
-
-}  // namespace detail
-
-inline std::vector<bool> find_shells(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
-                                     const VertexSlices& slices) {
+MSPSKEL_INLINE std::vector<bool> find_shells(const SurfaceSnapshot& surface,
+                                             const BoundingVolumeHierarchy& solid,
+                                             const VertexSlices& slices) {
   constexpr double kThin = 0.3;       // half widths
   constexpr double kWall = 2.0 / 3;   // share of the area
   constexpr double kPossible = 0.45;  // half the mean thickness, median half widths

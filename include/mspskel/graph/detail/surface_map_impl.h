@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "mspskel/base/error.h"
+#include "mspskel/base/linkage.h"
 
 namespace mspskel {
 namespace detail {
@@ -107,9 +108,6 @@ inline void settle_joined(const SurfacePatches& patches, const std::vector<std::
   }
 }
 
-// Vertices that a thread takes at a time: neighbours in storage share what it remembers.
-inline constexpr Index kMapGrain = 512;
-
 // Finds the edge of a chain that is nearest to a point.
 class NearestOnChain {
  public:
@@ -162,8 +160,8 @@ class NearestOnChain {
 
 }  // namespace detail
 
-inline SurfacePatches find_patches(const SurfaceSnapshot& snapshot,
-                                   const std::vector<Index>& node_of_vertex) {
+MSPSKEL_INLINE SurfacePatches find_patches(const SurfaceSnapshot& snapshot,
+                                           const std::vector<Index>& node_of_vertex) {
   // Union and find in the order of storage: a walk from vertex to vertex would wait for memory. The root is
   // the first vertex of its set.
   SurfacePatches patches;
@@ -200,7 +198,8 @@ inline SurfacePatches find_patches(const SurfaceSnapshot& snapshot,
   return patches;
 }
 
-inline SurfaceMapReport report_surface_map(const SurfaceSnapshot& snapshot, const CurveSkeleton& skeleton) {
+MSPSKEL_INLINE SurfaceMapReport report_surface_map(const SurfaceSnapshot& snapshot,
+                                                   const CurveSkeleton& skeleton) {
   SurfaceMapReport report;
   const Index n = static_cast<Index>(skeleton.nodes.size());
   report.patches.assign(n, 0);
@@ -226,7 +225,7 @@ inline SurfaceMapReport report_surface_map(const SurfaceSnapshot& snapshot, cons
   return report;
 }
 
-inline PatchRepair make_patches_connected(const SurfaceSnapshot& snapshot, CurveSkeleton& skeleton) {
+MSPSKEL_INLINE PatchRepair make_patches_connected(const SurfaceSnapshot& snapshot, CurveSkeleton& skeleton) {
   detail::require_partition(snapshot, skeleton);
   SurfacePatches patches = find_patches(snapshot, skeleton.node_of_vertex);
   std::vector<bool> settled = detail::settled_patches(snapshot, patches);
@@ -262,10 +261,11 @@ inline PatchRepair make_patches_connected(const SurfaceSnapshot& snapshot, Curve
   return repair;
 }
 
-inline PatchRepair assign_vertices_to_branch_nodes(const SurfaceSnapshot& snapshot, CurveSkeleton& skeleton,
-                                                   const std::vector<Index>& branch_of_vertex,
-                                                   const std::vector<Branch>& branches,
-                                                   const Execution& execution) {
+MSPSKEL_INLINE PatchRepair assign_vertices_to_branch_nodes(const SurfaceSnapshot& snapshot,
+                                                           CurveSkeleton& skeleton,
+                                                           const std::vector<Index>& branch_of_vertex,
+                                                           const std::vector<Branch>& branches,
+                                                           const Execution& execution) {
   for (std::size_t b = 0; b < branches.size(); ++b) {
     if (branches[b].nodes.empty()) throw UsageError("branch " + std::to_string(b) + " has no nodes");
     for (const Index k : branches[b].nodes)
@@ -292,7 +292,7 @@ inline PatchRepair assign_vertices_to_branch_nodes(const SurfaceSnapshot& snapsh
   return make_patches_connected(snapshot, skeleton);
 }
 
-inline void set_areas(const SurfaceSnapshot& snapshot, CurveSkeleton& skeleton) {
+MSPSKEL_INLINE void set_areas(const SurfaceSnapshot& snapshot, CurveSkeleton& skeleton) {
   for (SkeletonNode& node : skeleton.nodes) node.area = 0.0;
   for (Index v = 0; v < snapshot.vertex_count(); ++v)
     if (skeleton.node_of_vertex[v] != kNone)

@@ -6,8 +6,11 @@
 #include <limits>
 #include <optional>
 
+#include "mspskel/base/linkage.h"
 #include "mspskel/graph/center_arcs.h"
+#include "mspskel/graph/detail/arc_points.h"
 #include "mspskel/graph/detail/axis_stretch.h"
+#include "mspskel/graph/detail/hub_components.h"
 #include "mspskel/graph/detail/near_vertices.h"
 #include "mspskel/graph/limb_measures.h"
 #include "mspskel/graph/route_inside.h"
@@ -280,9 +283,9 @@ class WallArcs {
 
 }  // namespace detail
 
-inline Index tighten_in_walls(ArcGraph& graph, const SurfaceSnapshot& surface,
-                              const BoundingVolumeHierarchy& solid, const std::vector<bool>& shells,
-                              detail::InnerGraph& inner, double step) {
+MSPSKEL_INLINE Index tighten_in_walls(ArcGraph& graph, const SurfaceSnapshot& surface,
+                                      const BoundingVolumeHierarchy& solid, const std::vector<bool>& shells,
+                                      detail::InnerGraph& inner, double step) {
   if (std::find(shells.begin(), shells.end(), true) == shells.end()) return 0;
   return detail::WallArcs(graph, surface, solid, shells, inner, step).run();
 }

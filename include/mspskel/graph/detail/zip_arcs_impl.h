@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mspskel/base/linkage.h"
 #include "mspskel/graph/detail/near_vertices.h"
 
 namespace mspskel {
@@ -107,8 +108,8 @@ inline void apply_zip(ArcGraph& graph, const SurfaceSnapshot& surface, const Bou
 
 }  // namespace detail
 
-inline Index zip_arcs(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
-                      const ZipOptions& options) {
+MSPSKEL_INLINE Index zip_arcs(ArcGraph& graph, const SurfaceSnapshot& surface,
+                              const BoundingVolumeHierarchy& solid, const ZipOptions& options) {
   validate(options);
   if (options.closeness == 0) return 0;
   Index zips = 0;

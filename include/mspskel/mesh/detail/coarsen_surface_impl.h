@@ -5,11 +5,12 @@
 #include <utility>
 
 #include "mspskel/base/clones.h"
+#include "mspskel/base/linkage.h"
 #include "mspskel/mesh/detail/collapsing_surface.h"
 
 namespace mspskel {
 
-inline void validate(const CoarseningOptions& o) {
+MSPSKEL_INLINE void validate(const CoarseningOptions& o) {
   if (o.vertices < 4) throw UsageError("coarsening vertices must be at least 4");
   if (o.component_vertices < 4) throw UsageError("coarsening component_vertices must be at least 4");
   if (!(o.spread >= 1e-6 && o.spread <= 1)) throw UsageError("coarsening spread must be from 1e-6 to 1");
@@ -67,8 +68,8 @@ inline bool coarsening_pass(CollapsingSurface& mesh, Index target, std::vector<C
 
 }  // namespace detail
 
-inline CoarseSurface coarsen_surface(const SurfaceSnapshot& input, const CoarseningOptions& options,
-                                     const Execution& execution) {
+MSPSKEL_INLINE CoarseSurface coarsen_surface(const SurfaceSnapshot& input, const CoarseningOptions& options,
+                                             const Execution& execution) {
   validate(options);
   CoarseSurface result;
   if (input.vertex_count() <= options.vertices) {

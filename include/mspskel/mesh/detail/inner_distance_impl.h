@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "mspskel/base/linkage.h"
+
 namespace mspskel {
 namespace detail {
 
@@ -74,14 +76,15 @@ inline bool straight_way_is_free(const BoundingVolumeHierarchy& solid, const Vec
 
 }  // namespace detail
 
-inline SurfaceWays::SurfaceWays(const SurfaceSnapshot& surface) : surface_(surface) {
+MSPSKEL_INLINE SurfaceWays::SurfaceWays(const SurfaceSnapshot& surface) : surface_(surface) {
   for (Index h = 0; h < surface.halfedge_count(); ++h) {
     edge_.push_back(detail::way_along(surface, h));
     across_.push_back(detail::way_across(surface, h));
   }
 }
 
-inline void SurfaceWays::extend(const std::vector<std::uint8_t>& fixed, std::vector<double>& distance) const {
+MSPSKEL_INLINE void SurfaceWays::extend(const std::vector<std::uint8_t>& fixed,
+                                        std::vector<double>& distance) const {
   std::vector<Index> given;
   for (Index v = 0; v < surface_.vertex_count(); ++v)
     if (std::isfinite(distance[v])) given.push_back(v);
@@ -90,10 +93,10 @@ inline void SurfaceWays::extend(const std::vector<std::uint8_t>& fixed, std::vec
       [&](Index v) { return !fixed[v]; }, given, distance);
 }
 
-inline std::vector<double> inner_distances(const SurfaceSnapshot& surface, const SurfaceWays& ways,
-                                           const BoundingVolumeHierarchy& solid,
-                                           const std::vector<std::optional<Vector3>>& from,
-                                           const Execution& execution) {
+MSPSKEL_INLINE std::vector<double> inner_distances(const SurfaceSnapshot& surface, const SurfaceWays& ways,
+                                                   const BoundingVolumeHierarchy& solid,
+                                                   const std::vector<std::optional<Vector3>>& from,
+                                                   const Execution& execution) {
   std::vector<double> distance(surface.position.size(), std::numeric_limits<double>::infinity());
   std::vector<std::uint8_t> seen(surface.position.size(), 0);
   parallel_for(
@@ -109,9 +112,9 @@ inline std::vector<double> inner_distances(const SurfaceSnapshot& surface, const
   return distance;
 }
 
-inline void inner_distances(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
-                            const Vector3& from, const std::vector<Index>& vertices,
-                            std::vector<double>& distance) {
+MSPSKEL_INLINE void inner_distances(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
+                                    const Vector3& from, const std::vector<Index>& vertices,
+                                    std::vector<double>& distance) {
   std::vector<Index> seen;
   for (const Index v : vertices) {
     const bool free = detail::straight_way_is_free(solid, from, surface.position[v]);

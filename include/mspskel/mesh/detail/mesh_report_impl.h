@@ -3,36 +3,12 @@
 #include <algorithm>
 #include <limits>
 
+#include "mspskel/base/linkage.h"
+#include "mspskel/mesh/detail/component_measures.h"
 #include "mspskel/mesh/self_intersection.h"
 
 namespace mspskel {
 namespace detail {
-
-// Counts, areas and volumes, in normalised units.
-inline void measure_components(const SurfaceSnapshot& s, MeshReport& r) {
-  r.components.resize(s.component_count);
-  for (Index v = 0; v < s.vertex_count(); ++v) {
-    if (s.component[v] == kNone)
-      ++r.isolated_vertices;
-    else
-      ++r.components[s.component[v]].vertices;
-  }
-  for (Index f = 0; f < s.face_count(); ++f) {
-    ComponentReport& c = r.components[s.component[s.origin[3 * f]]];
-    const Vector3 normal = s.face_normal_times_twice_area(f);
-    ++c.faces;
-    c.area += normal.norm() / 2;
-    c.signed_volume += normal.dot(s.position[s.origin[3 * f]]) / 6;
-  }
-  for (ComponentReport& c : r.components) {
-    c.edges = c.faces / 2 * 3;
-    c.genus = (2 - (c.vertices - c.edges + c.faces)) / 2;
-    r.edges += c.edges;
-    r.genus += c.genus;
-    r.area += c.area;
-    r.signed_volume += c.signed_volume;
-  }
-}
 
 inline void measure_edges(const SurfaceSnapshot& s, MeshReport& r) {
   r.shortest_edge = std::numeric_limits<double>::infinity();
@@ -108,18 +84,19 @@ inline void to_model_units(double scale, MeshReport& r) {
 
 }  // namespace detail
 
-inline void validate(const MeshReportOptions& options) {
+MSPSKEL_INLINE void validate(const MeshReportOptions& options) {
   if (options.self_intersection_limit < 0) throw UsageError("self_intersection_limit must not be negative");
 }
 
-inline double bounding_box_diagonal(const SurfaceSnapshot& snapshot) {
+MSPSKEL_INLINE double bounding_box_diagonal(const SurfaceSnapshot& snapshot) {
   detail::Box3 box;
   for (const Vector3& p : snapshot.position) box.add(p);
   return (box.high - box.low).norm();
 }
 
-inline MeshReport report_mesh(const SurfaceSnapshot& snapshot, const BoundingVolumeHierarchy& hierarchy,
-                              const MeshReportOptions& options, const Execution& execution) {
+MSPSKEL_INLINE MeshReport report_mesh(const SurfaceSnapshot& snapshot,
+                                      const BoundingVolumeHierarchy& hierarchy,
+                                      const MeshReportOptions& options, const Execution& execution) {
   validate(options);
   MeshReport report;
   report.vertices = snapshot.vertex_count();
@@ -135,8 +112,8 @@ inline MeshReport report_mesh(const SurfaceSnapshot& snapshot, const BoundingVol
   return report;
 }
 
-inline MeshReport report_mesh(const SurfaceSnapshot& snapshot, const MeshReportOptions& options,
-                              const Execution& execution) {
+MSPSKEL_INLINE MeshReport report_mesh(const SurfaceSnapshot& snapshot, const MeshReportOptions& options,
+                                      const Execution& execution) {
   return report_mesh(snapshot, BoundingVolumeHierarchy(snapshot), options, execution);
 }
 

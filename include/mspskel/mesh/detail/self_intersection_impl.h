@@ -2,6 +2,7 @@
 
 #include <atomic>
 
+#include "mspskel/base/linkage.h"
 #include "mspskel/mesh/detail/segment_triangle.h"
 
 namespace mspskel {
@@ -59,9 +60,9 @@ inline bool faces_intersect(const SurfaceSnapshot& s, Index face_f, Index face_g
 
 }  // namespace detail
 
-inline Index count_self_intersections(const SurfaceSnapshot& snapshot,
-                                      const BoundingVolumeHierarchy& hierarchy, Index limit,
-                                      const Execution& execution) {
+MSPSKEL_INLINE Index count_self_intersections(const SurfaceSnapshot& snapshot,
+                                              const BoundingVolumeHierarchy& hierarchy, Index limit,
+                                              const Execution& execution) {
   std::atomic<Index> found{0};
   parallel_for(
       snapshot.face_count(), "self-intersections", execution, [] { return 0; },

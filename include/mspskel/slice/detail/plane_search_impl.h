@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "mspskel/base/linkage.h"
+
 namespace mspskel::detail {
 
 // Planes closer than 4 degrees are left to the compass.
@@ -229,3 +231,37 @@ inline RoundResult search_round(const SliceTracer& tracer, const SearchOptions& 
 }
 
 }  // namespace mspskel::detail
+
+namespace mspskel {
+
+MSPSKEL_INLINE VertexSlices search_minimum_slice_perimeters(const SliceTracer& tracer,
+                                                            const SearchOptions& options,
+                                                            const Execution& execution) {
+  validate(options);
+  const SurfaceSnapshot& surface = tracer.surface();
+  const Index count = surface.vertex_count();
+  const std::vector<detail::SpreadPlane> spread = detail::spread_planes(options);
+  detail::SearchState state(surface);
+  std::vector<detail::RoundResult> found;
+  for (int round = 0, settling = 0; !state.active.empty(); ++round) {
+    if (state.unvisited == 0 && settling++ >= options.rounds) break;
+    const auto active = static_cast<Index>(state.active.size());
+    found.resize(state.active.size());
+    parallel_for(
+        active, "slice search", execution, [] { return std::vector<detail::PlaneOffer>(); },
+        [&](Index i, std::vector<detail::PlaneOffer>& offers) {
+          found[i] = detail::search_round(tracer, options, spread, state, round, state.active[i], offers);
+        });
+    state.advance(surface, found, round);
+  }
+  VertexSlices slices;
+  slices.resize(count);
+  for (Index v = 0; v < count; ++v) detail::store_slice(v, state.best[v], slices);
+  for (const detail::BestSlice& best : state.best) {
+    slices.slices += best.slices;
+    slices.steps += best.steps;
+  }
+  return slices;
+}
+
+}  // namespace mspskel

@@ -1,10 +1,11 @@
 #pragma once
 
 #include "mspskel/base/clones.h"
+#include "mspskel/base/linkage.h"
 
 namespace mspskel {
 
-inline SliceTracer::SliceTracer(const SurfaceSnapshot& surface) : surface_(surface) {
+MSPSKEL_INLINE SliceTracer::SliceTracer(const SurfaceSnapshot& surface) : surface_(surface) {
   step_.resize(surface.origin.size());
   for (Index h = 0; h < surface.halfedge_count(); ++h)
     step_[h] = {surface.apex(h),
@@ -131,8 +132,9 @@ class SliceTracer::PairWalk {
 
 // Length and signed area (oriented by the surface) of the contour; length = infinity once it cannot stay
 // below `bound`.
-MSPSKEL_AVX_CLONES inline SliceTracer::Measure SliceTracer::measure(Index start, const Side& side,
-                                                                    double bound, std::int64_t& steps) const {
+MSPSKEL_AVX_CLONES MSPSKEL_INLINE SliceTracer::Measure SliceTracer::measure(Index start, const Side& side,
+                                                                            double bound,
+                                                                            std::int64_t& steps) const {
   using namespace detail::two_walks;
   PairWalk walk(*this, start, side);
   const Lanes3 first = walk.crossing();
@@ -159,13 +161,13 @@ MSPSKEL_AVX_CLONES inline SliceTracer::Measure SliceTracer::measure(Index start,
   return {perimeter, -0.5 * (twice.x() * side.x + twice.y() * side.y + twice.z() * side.z)};
 }
 
-inline SliceTracer::Side SliceTracer::side_through(Index v, const Vector3& normal) const {
+MSPSKEL_INLINE SliceTracer::Side SliceTracer::side_through(Index v, const Vector3& normal) const {
   const Point& p = point_[v];
   return {normal.x(), normal.y(), normal.z(), normal.x() * p.x + normal.y() * p.y + normal.z() * p.z, v};
 }
 
-inline SliceTracer::Shortest SliceTracer::shortest_through(Index v, const Vector3& normal, double bound,
-                                                           std::int64_t& steps) const {
+MSPSKEL_INLINE SliceTracer::Shortest SliceTracer::shortest_through(Index v, const Vector3& normal,
+                                                                   double bound, std::int64_t& steps) const {
   Shortest best;
   const Index first = surface_.vertex_halfedge[v];
   if (first == kNone) return best;
@@ -189,8 +191,8 @@ inline SliceTracer::Shortest SliceTracer::shortest_through(Index v, const Vector
   return best;
 }
 
-MSPSKEL_AVX_CLONES inline void SliceTracer::trace(Index start, const Plane& plane, Index through,
-                                                  Contour& contour) const {
+MSPSKEL_AVX_CLONES MSPSKEL_INLINE void SliceTracer::trace(Index start, const Plane& plane, Index through,
+                                                          Contour& contour) const {
   contour.halfedge.clear();
   contour.weight.clear();
   contour.point.clear();
@@ -213,8 +215,8 @@ MSPSKEL_AVX_CLONES inline void SliceTracer::trace(Index start, const Plane& plan
   contour.area = -0.5 * area.dot(plane.normal);
 }
 
-inline bool SliceTracer::shortest_contour(Index v, const Vector3& normal, Contour& contour,
-                                          std::int64_t& steps) const {
+MSPSKEL_INLINE bool SliceTracer::shortest_contour(Index v, const Vector3& normal, Contour& contour,
+                                                  std::int64_t& steps) const {
   const Shortest found = shortest_through(v, normal, std::numeric_limits<double>::infinity(), steps);
   if (found.start == kNone) return false;
   trace(found.start, Plane{normal, normal.dot(surface_.position[v])}, v, contour);

@@ -1,0 +1,167 @@
+#pragma once
+
+#include "mspskel/base/linkage.h"
+#include "mspskel/graph/aim_ends.h"
+#include "mspskel/graph/complete_limbs.h"
+#include "mspskel/graph/detail/inner_graph.h"
+#include "mspskel/graph/lay_axes.h"
+#include "mspskel/graph/limit_nodes.h"
+#include "mspskel/graph/merge_joints.h"
+#include "mspskel/graph/prune_branches.h"
+#include "mspskel/graph/shells.h"
+#include "mspskel/graph/tighten_walls.h"
+
+namespace mspskel {
+namespace detail {
+
+// The stages of refine_arcs on one graph. Each has to keep the graph's homotopy type, and is held to it.
+class ArcRefinement {
+ public:
+  ArcRefinement(ArcGraph& graph, const SurfaceSnapshot& surface, const SurfaceSnapshot& input,
+                const BoundingVolumeHierarchy& solid, const VertexSlices& slices, std::vector<LimbTip> tips,
+                const RefinementOptions& options, const Execution& execution)
+      : graph_(graph),
+        surface_(surface),
+        input_(input),
+        solid_(solid),
+        slices_(slices),
+        tips_(std::move(tips)),
+        options_(options),
+        execution_(execution),
+        type_(homotopy_type(graph)),
+        inner_(surface, solid, execution),
+        draft_(options.centering),
+        touch_up_(options.centering) {
+    // Until the graph's shape is settled a coarser line will do.
+    draft_.rounds = (options.centering.rounds + 2) / 3;
+    draft_.step = 2 * options.centering.step;
+    draft_.rays = std::max(4, 2 * options.centering.rays / 3);
+    touch_up_.rounds = draft_.rounds;
+  }
+
+  RefinementCounts run() {
+    lay();
+    route();
+    aim();
+    prune();  // hairs would pull on the arcs that they leave
+    for (int pass = 0; pass < 2; ++pass) {
+      center(draft_);
+      zip();
+      prune();
+    }
+    aim();
+    complete();
+    center(draft_);
+    zip();
+    extend();
+    center(draft_);
+    prune();
+    center(options_.centering);
+    if (drop_spurs() > 0) center(touch_up_);
+    aim_strays();
+    tighten();
+    lay();  // straight again: in a block every wall is as near, and centring goes where the noise leads
+    subdivide(graph_, 1.25 * options_.centering.step);  // rounds of centring stretch some edges
+    return counts_;
+  }
+
+ private:
+  void keep_type(const char* stage) const {
+    if (!(homotopy_type(graph_) == type_))
+      throw NoSkeletonError(std::string(stage) + " would have changed the skeleton's topology");
+  }
+
+  void route() {
+    counts_.routing = route_inside(graph_, surface_, solid_, inner_);
+    // Edges of the coarser surface may cut what bounds the solid where a limb is thin.
+    if (counts_.routing.unroutable > 0 && &input_ != &surface_) {
+      InnerGraph fine(input_, solid_, execution_);
+      const RoutingResult again = route_inside(graph_, surface_, solid_, fine);
+      counts_.routing.routed += again.routed;
+      counts_.routing.unroutable = again.unroutable;
+    }
+    if (counts_.routing.unroutable > 0) {
+      const Index removed = remove_crossing_leaves(graph_, solid_);
+      counts_.pruned += removed;
+      counts_.routing.unroutable -= std::min(removed, counts_.routing.unroutable);
+    }
+    keep_type("routing inside");
+  }
+  void aim() {
+    aim_ends(graph_, surface_, solid_, options_.centering.step, execution_);
+    aim_at_tips(graph_, solid_, tips_, options_.centering.step);
+    keep_type("aiming of ends");
+  }
+  // In fins and wide ends centring draws a leaf back into the body, time after time.
+  void aim_strays() {
+    constexpr double kSlack = 1.0;
+    aim_at_tips(graph_, solid_, tips_, options_.centering.step, kSlack);
+    keep_type("aiming of strays");
+  }
+  void lay() {
+    counts_.axes = lay_axes(graph_, surface_, solid_, tips_);
+    keep_type("laying of axes");
+  }
+  void tighten() {
+    tighten_in_walls(graph_, surface_, solid_, find_shells(surface_, solid_, slices_), inner_,
+                     options_.centering.step);
+    keep_type("tightening in walls");
+  }
+  void prune() {
+    counts_.pruned += prune_branches(graph_, tips_);
+    keep_type("pruning");
+    counts_.joints_merged += merge_joints(graph_, solid_, options_.joint_overlap);
+    dissolve_through_hubs(graph_);
+    keep_type("merging of joints");
+  }
+  void center(const CenteringOptions& centering) {
+    center_arcs(graph_, solid_, centering, execution_);
+    keep_type("centring");
+  }
+  void zip() {
+    counts_.zips += zip_arcs(graph_, surface_, solid_, options_.zip);
+    keep_type("zipping");
+  }
+  void complete() {
+    counts_.completed = complete_limbs(graph_, surface_, solid_, slices_, tips_, options_.limbs,
+                                       options_.centering.step, inner_, execution_);
+    keep_type("completion of limbs");
+  }
+  void extend() {
+    extend_ends(graph_, solid_, options_.extension);
+    keep_type("extension of ends");
+  }
+  Index drop_spurs() {
+    const Index spurs = remove_spurs(graph_, solid_);
+    counts_.pruned += spurs;
+    keep_type("removal of spurs");
+    return spurs;
+  }
+
+  ArcGraph& graph_;
+  const SurfaceSnapshot& surface_;
+  const SurfaceSnapshot& input_;
+  const BoundingVolumeHierarchy& solid_;
+  const VertexSlices& slices_;
+  std::vector<LimbTip> tips_;  // more as limbs are completed
+  const RefinementOptions& options_;
+  const Execution& execution_;
+  const ArcGraphType type_;
+  InnerGraph inner_;
+  CenteringOptions draft_, touch_up_;
+  RefinementCounts counts_;
+};
+
+}  // namespace detail
+
+MSPSKEL_INLINE RefinementCounts refine_arcs(ArcGraph& graph, const SurfaceSnapshot& surface,
+                                            const SurfaceSnapshot& input,
+                                            const BoundingVolumeHierarchy& solid, const VertexSlices& slices,
+                                            std::vector<LimbTip> tips, const RefinementOptions& options,
+                                            const Execution& execution) {
+  validate(options);
+  return detail::ArcRefinement(graph, surface, input, solid, slices, std::move(tips), options, execution)
+      .run();
+}
+
+}  // namespace mspskel

@@ -1,0 +1,3 @@
+#include "mspskel/center/planar_region.h"
+
+#include "mspskel/center/detail/planar_region_impl.h"

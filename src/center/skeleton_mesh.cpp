@@ -1,0 +1,3 @@
+#include "mspskel/center/skeleton_mesh.h"
+
+#include "mspskel/center/detail/skeleton_mesh_impl.h"

@@ -1,0 +1,3 @@
+#include "mspskel/collapse/topology_certificate.h"
+
+#include "mspskel/collapse/detail/topology_certificate_impl.h"

@@ -1,0 +1,3 @@
+#include "mspskel/graph/center_arcs.h"
+
+#include "mspskel/graph/detail/center_arcs_impl.h"

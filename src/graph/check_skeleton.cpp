@@ -1,0 +1,3 @@
+#include "mspskel/graph/check_skeleton.h"
+
+#include "mspskel/graph/detail/check_skeleton_impl.h"

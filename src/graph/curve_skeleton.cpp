@@ -1,0 +1,3 @@
+#include "mspskel/graph/curve_skeleton.h"
+
+#include "mspskel/graph/detail/curve_skeleton_impl.h"

@@ -1,0 +1,3 @@
+#include "mspskel/graph/find_digits.h"
+
+#include "mspskel/graph/detail/find_digits_impl.h"

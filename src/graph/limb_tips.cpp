@@ -1,0 +1,3 @@
+#include "mspskel/graph/limb_tips.h"
+
+#include "mspskel/graph/detail/limb_tips_impl.h"

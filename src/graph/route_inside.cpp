@@ -1,0 +1,3 @@
+#include "mspskel/graph/route_inside.h"
+
+#include "mspskel/graph/detail/route_inside_impl.h"

@@ -1,0 +1,3 @@
+#include "mspskel/graph/surface_map.h"
+
+#include "mspskel/graph/detail/surface_map_impl.h"

@@ -1,0 +1,3 @@
+#include "mspskel/mesh/self_intersection.h"
+
+#include "mspskel/mesh/detail/self_intersection_impl.h"
