@@ -51,6 +51,11 @@ MeshReport report_mesh(const SurfaceSnapshot& snapshot, const BoundingVolumeHier
 MeshReport report_mesh(const SurfaceSnapshot& snapshot, const MeshReportOptions& options = {},
                        const Execution& execution = {});
 
+namespace detail {
+// The counts, areas and volumes of a report, in normalised units.
+void measure_components(const SurfaceSnapshot& snapshot, MeshReport& report);
+}  // namespace detail
+
 }  // namespace mspskel
 
 #ifndef MSPSKEL_COMPILED

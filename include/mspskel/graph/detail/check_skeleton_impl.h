@@ -7,7 +7,7 @@
 
 #include "mspskel/base/even_directions.h"
 #include "mspskel/base/linkage.h"
-#include "mspskel/mesh/detail/component_measures.h"
+#include "mspskel/mesh/mesh_report.h"
 #include "mspskel/mesh/mesh_report.h"
 
 namespace mspskel {
