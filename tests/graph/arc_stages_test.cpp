@@ -64,7 +64,7 @@ TEST_CASE("Random graphs are routed inside, and every stage keeps them there, wi
         CHECK(map_is_partition(graph));
         CHECK(crossings(graph, solid.hierarchy) == 0);
       };
-      const RoutingResult routing = route_inside(graph, solid.surface, solid.hierarchy);
+      const RoutingResult routing = route_inside(graph, solid.hierarchy, solid.surface);
       REQUIRE(routing.unroutable == 0);
       check("routing");
       center_arcs(graph, solid.hierarchy, coarse);
@@ -99,7 +99,7 @@ TEST_CASE("An arc across the hole of a torus comes back through the ring") {
   graph.add_hub(solid.at({-1, 0.05, 0}));
   line(graph, 0, 1);
   map_to_nearest(graph, solid.surface.position);
-  const RoutingResult result = route_inside(graph, solid.surface, solid.hierarchy);
+  const RoutingResult result = route_inside(graph, solid.hierarchy, solid.surface);
   CHECK(result.hubs_moved == 0);
   CHECK(result.routed > 0);
   CHECK(crossings(graph, solid.hierarchy) == 0);
@@ -109,7 +109,7 @@ TEST_CASE("An arc across the hole of a torus comes back through the ring") {
   }
   // What is inside is left alone.
   const auto points = graph.arcs[0].points;
-  const RoutingResult again = route_inside(graph, solid.surface, solid.hierarchy);
+  const RoutingResult again = route_inside(graph, solid.hierarchy, solid.surface);
   CHECK((again.hubs_moved == 0 && again.routed == 0 && again.unroutable == 0));
   CHECK(graph.arcs[0].points == points);
 }
@@ -125,7 +125,7 @@ TEST_CASE("A hub in the cavity of a cup moves into the wall, and its arcs follow
   line(graph, 1, 2);
   map_to_nearest(graph, solid.surface.position);
   REQUIRE(crossings(graph, solid.hierarchy) > 0);
-  const RoutingResult result = route_inside(graph, solid.surface, solid.hierarchy);
+  const RoutingResult result = route_inside(graph, solid.hierarchy, solid.surface);
   CHECK(result.hubs_moved >= 1);
   CHECK(result.unroutable == 0);
   CHECK(crossings(graph, solid.hierarchy) == 0);
@@ -145,7 +145,7 @@ TEST_CASE("A hub outside moves into its own component, not into a nearer one") {
     graph.arc_of_vertex.push_back(solid.surface.component[v] == 0 ? 0 : kNone);
     graph.hub_of_vertex.push_back(solid.surface.component[v] == 0 ? kNone : 2);
   }
-  const RoutingResult result = route_inside(graph, solid.surface, solid.hierarchy);
+  const RoutingResult result = route_inside(graph, solid.hierarchy, solid.surface);
   CHECK(result.hubs_moved == 1);
   CHECK(result.unroutable == 0);
   CHECK(crossings(graph, solid.hierarchy) == 0);
@@ -341,7 +341,7 @@ TEST_CASE("A hub outside goes into its own limb, however near another one is") {
     const Vector3 x = solid.model(solid.surface.position[v]);
     graph.hub_of_vertex[v] = x.y() < 0.45 && x.x() < 2 ? 0 : 1;
   }
-  route_inside(graph, solid.surface, solid.hierarchy);
+  route_inside(graph, solid.hierarchy, solid.surface);
   CHECK(solid.hierarchy.inside(graph.hub_position[0]));
   CHECK(solid.model(graph.hub_position[0]).y() < 0.4);
   CHECK(crossings(graph, solid.hierarchy) == 0);

@@ -55,6 +55,13 @@ class MergingSet {
     for (std::size_t i = 0; i < axis_.size(); ++i) axis_[i] += other.axis_[i];
   }
 
+  // The set in a frame in which x is scale · x + shift.
+  void move(double scale, const Vector3& shift) {
+    area_ *= scale * scale;
+    perimeter_ *= scale;
+    position_ = scale * position_ + weight_ * shift;
+  }
+
   Index count() const { return count_; }  // vertices, T of Eq. 4.3
   double area() const {
     return area_;

@@ -4,11 +4,13 @@
 #include <optional>
 
 #include "mspskel/base/linkage.h"
+#include "mspskel/detail/join_components.h"
 #include "mspskel/graph/collapsed_arcs.h"
 #include "mspskel/graph/limit_nodes.h"
 #include "mspskel/graph/make_curve_skeleton.h"
 #include "mspskel/graph/reach_digits.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
+#include "mspskel/mesh/component_solids.h"
 #include "mspskel/mesh/orient_shells.h"
 
 namespace mspskel {
@@ -91,7 +93,8 @@ inline std::vector<LimbTip> limb_tips(const SurfaceSnapshot& input, const LimbSu
 }
 
 // Slices and skeletal points, on one surface: the stages that share their vertices among the threads.
-inline void run_vertex_stages(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
+// `of_surface` is the surface's own hierarchy, where there is one.
+inline void run_vertex_stages(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy* of_surface,
                               const ExtractOptions& options, ExtractResult& result, StageClock& clock) {
   SkeletonMeshOptions points = options.points;
   // Holes of a slice are contours of the surface that was sliced.
@@ -100,10 +103,10 @@ inline void run_vertex_stages(const SurfaceSnapshot& surface, const BoundingVolu
   run_beside(
       options.execution, [&] { tracer.emplace(surface); },
       [&] {
-        if (result.coarse && points.holes != HoleSearch::kIgnore) own.emplace(surface);
+        if (of_surface == nullptr && points.holes != HoleSearch::kIgnore) own.emplace(surface);
       });
   run_slice_stages(*tracer, options, result, clock);
-  points.solid = own ? &*own : &solid;
+  points.solid = own ? &*own : of_surface;
   result.skeleton_mesh = make_skeleton_mesh(*tracer, result.slices, points, options.execution);
   clock.lap("skeletal_points");
 }
@@ -206,32 +209,31 @@ MSPSKEL_INLINE void validate(const ExtractOptions& options) {
   validate(options.refinement);
 }
 
-MSPSKEL_INLINE ExtractResult extract_skeleton_of_snapshot(SurfaceSnapshot surface,
-                                                          const ExtractOptions& options) {
-  validate(options);
+namespace detail {
+
+// A surface of one component, and what bounds its solid where that is more than the surface itself.
+inline ExtractResult extract_component(SurfaceSnapshot surface, const SurfaceSnapshot* bounds,
+                                       const ExtractOptions& options) {
   ExtractResult result;
-  detail::StageClock clock(result.seconds);
+  StageClock clock(result.seconds);
   result.surface = std::move(surface);
-  // Each shell bounds a solid of its own, the ones round cavities too.
+  // The solid is what the shell encloses, whichever way it is turned.
   const std::optional<SurfaceSnapshot> oriented = orient_shells_outward(result.surface);
   const SurfaceSnapshot& shells = oriented ? *oriented : result.surface;
-  if (oriented)
-    result.warnings.push_back(
-        "shells that are turned inward (cavities) get a skeleton of their own, which lies in the cavity");
-  detail::LimbSurface limbs;
+  LimbSurface limbs;
   std::optional<BoundingVolumeHierarchy> hierarchy;
   run_beside(
       options.execution,
       [&] {
         if (!options.coarsen || shells.vertex_count() <= options.coarsening.vertices) return;
-        result.coarse = detail::coarsen_in_steps(shells, options, limbs);
+        result.coarse = coarsen_in_steps(shells, options, limbs);
         clock.lap("coarsening");
       },
-      [&] { hierarchy.emplace(result.surface); });
+      [&] { hierarchy.emplace(bounds != nullptr ? *bounds : result.surface); });
   const BoundingVolumeHierarchy& solid = *hierarchy;
   clock.lap("hierarchy");
   const SurfaceSnapshot& working = result.coarse ? result.coarse->surface : shells;
-  detail::run_vertex_stages(working, solid, options, result, clock);
+  run_vertex_stages(working, result.coarse || bounds != nullptr ? nullptr : &solid, options, result, clock);
   std::vector<LimbTip> tips;
   std::optional<VolumeCocycles> input_cocycles;
   run_beside(
@@ -274,6 +276,115 @@ MSPSKEL_INLINE ExtractResult extract_skeleton_of_snapshot(SurfaceSnapshot surfac
     set_radii(result.surface, solid, result.skeleton, options.execution);
   }
   clock.lap("result");
+  return result;
+}
+
+// Components of so many faces or fewer are shared out among the threads; larger ones share out their own
+// work.
+inline constexpr std::size_t kSmallComponent = 2000;
+
+// Whether the options ask for more of a component than its part of the whole's nodes.
+inline ExtractOptions with_share_of_nodes(const ExtractOptions& options, Index own, Index all) {
+  ExtractOptions share = options;
+  share.refinement.nodes = static_cast<Index>(
+      std::max<std::int64_t>(1, std::int64_t{options.refinement.nodes} * own / std::max<Index>(all, 1)));
+  return share;
+}
+
+// Every component of a surface by itself: in a frame, with a budget of vertices and in a solid of its own.
+class ComponentwiseExtraction {
+ public:
+  ComponentwiseExtraction(const SurfaceSnapshot& surface, const ComponentSolids& solids,
+                          const ExtractOptions& options)
+      : surface_(surface),
+        solids_(solids),
+        options_(options),
+        part_(solids.faces.size()),
+        own_(part_.size()) {
+    for (Index f = 0; f < surface.face_count(); ++f)
+      own_[surface.component[surface.origin[3 * f]]].push_back(f);
+  }
+
+  void run_into(ExtractResult& result) {
+    ExtractOptions first = options_;
+    first.refinement.nodes = 0;
+    extract_all([&](Index) { return first; });
+    if (options_.refinement.nodes > 0 && options_.refinement.enabled) {
+      // A component gets nodes in proportion to what it has without a budget.
+      std::vector<Index> nodes;
+      Index all = 0;
+      for (const ExtractResult& part : part_) {
+        nodes.push_back(static_cast<Index>(part.skeleton.nodes.size()));
+        all += nodes.back();
+      }
+      if (all > options_.refinement.nodes)
+        extract_all([&](Index c) { return with_share_of_nodes(options_, nodes[c], all); });
+    }
+    make_room(result);
+    for (std::size_t c = 0; c < part_.size(); ++c) {
+      const NormalisedFrame frame = part_[c].surface.frame;
+      join_component(std::move(part_[c]),
+                     {static_cast<Index>(c), vertex_[c], own_[c], {frame, surface_.frame}}, result);
+    }
+  }
+
+ private:
+  template <class OptionsOf>
+  void extract_all(OptionsOf options_of) {
+    vertex_.assign(part_.size(), {});
+    std::vector<Index> small, large;
+    for (std::size_t c = 0; c < part_.size(); ++c)
+      (own_[c].size() <= kSmallComponent ? small : large).push_back(static_cast<Index>(c));
+    parallel_for(
+        static_cast<Index>(small.size()), "components", options_.execution, [] { return 0; },
+        [&](Index i, int) {
+          ExtractOptions options = options_of(small[i]);
+          // Progress is for the calling thread, which reports it for the components as a whole.
+          options.execution = {1, {}};
+          extract_one(small[i], options);
+        },
+        1);
+    for (const Index c : large) extract_one(c, options_of(c));
+  }
+
+  void extract_one(Index c, const ExtractOptions& options) {
+    SurfacePart own = surface_part(surface_, own_[c], own_[c].size());
+    vertex_[c] = std::move(own.vertex);
+    std::optional<SurfacePart> bounds;
+    if (solids_.faces[c].size() > own_[c].size())
+      bounds = surface_part(surface_, solids_.faces[c], own_[c].size());
+    part_[c] = extract_component(std::move(own.surface), bounds ? &bounds->surface : nullptr, options);
+  }
+
+  const SurfaceSnapshot& surface_;
+  const ComponentSolids& solids_;
+  const ExtractOptions& options_;
+  std::vector<ExtractResult> part_;         // per component
+  std::vector<std::vector<Index>> own_;     // per component: its faces
+  std::vector<std::vector<Index>> vertex_;  // per component: its vertices
+};
+
+inline ExtractResult extract_componentwise(SurfaceSnapshot surface, const ExtractOptions& options) {
+  ExtractResult result;
+  result.surface = std::move(surface);
+  const ComponentSolids solids = find_component_solids(result.surface, options.execution.progress);
+  ComponentwiseExtraction(result.surface, solids, options).run_into(result);
+  const auto cavities = std::count(solids.cavity.begin(), solids.cavity.end(), 1);
+  if (cavities > 0)
+    result.warnings.push_back(std::to_string(cavities) + (cavities == 1 ? " cavity" : " cavities") +
+                              " found: each has a skeleton of its own, which lies in the hollow, and the "
+                              "solid round it keeps clear of it");
+  return result;
+}
+
+}  // namespace detail
+
+MSPSKEL_INLINE ExtractResult extract_skeleton_of_snapshot(SurfaceSnapshot surface,
+                                                          const ExtractOptions& options) {
+  validate(options);
+  ExtractResult result = surface.component_count > 1
+                             ? detail::extract_componentwise(std::move(surface), options)
+                             : detail::extract_component(std::move(surface), nullptr, options);
   detail::collect_warnings(result);
   return result;
 }

@@ -20,11 +20,15 @@ struct RoutingResult {
 // to the middle of their inward chord. Such a path stays close to the medial surface and follows thin walls.
 // Does nothing where all is inside. Cost: O(points · log faces), and a shortest path over the mesh for each
 // stretch.
-RoutingResult route_inside(ArcGraph& graph, const SurfaceSnapshot& surface,
-                           const BoundingVolumeHierarchy& solid);
-// With the paths of `inner`, which is of the same surface and solid.
-RoutingResult route_inside(ArcGraph& graph, const SurfaceSnapshot& surface,
-                           const BoundingVolumeHierarchy& solid, detail::InnerGraph& inner);
+RoutingResult route_inside(ArcGraph& graph, const BoundingVolumeHierarchy& solid,
+                           const SurfaceSnapshot& surface);
+// With the paths of `inner`. Throws UsageError if the graph's map is not of the vertices of its surface.
+RoutingResult route_inside(ArcGraph& graph, const BoundingVolumeHierarchy& solid, detail::InnerGraph& inner);
+
+// The same for arcs alone: hubs stay, the graph's map is not read, and the paths may be those of any surface
+// within the solid.
+RoutingResult route_arcs_inside(ArcGraph& graph, const BoundingVolumeHierarchy& solid,
+                                detail::InnerGraph& inner);
 
 // Removes leaf arcs that leave the solid: where a surface crosses itself, parts of what it bounds may be out
 // of one another's reach. Returns their number. Cost: a query a point.

@@ -8,7 +8,6 @@
 #include "mspskel/base/even_directions.h"
 #include "mspskel/base/linkage.h"
 #include "mspskel/mesh/mesh_report.h"
-#include "mspskel/mesh/mesh_report.h"
 
 namespace mspskel {
 namespace detail {

@@ -34,6 +34,7 @@ class InnerGraph {
         surface_.vertex_count(), "arcs", execution_, [] { return 0; }, [&](Index v, int) { place(v); });
   }
 
+  const SurfaceSnapshot& surface() const { return surface_; }
   bool usable(Index v) const { return clearance_[v] != 0; }
   const Vector3& point(Index v) const { return point_[v]; }
 

@@ -72,11 +72,11 @@ class ArcRefinement {
   }
 
   void route() {
-    counts_.routing = route_inside(graph_, surface_, solid_, inner_);
+    counts_.routing = route_inside(graph_, solid_, inner_);
     // Edges of the coarser surface may cut what bounds the solid where a limb is thin.
     if (counts_.routing.unroutable > 0 && &input_ != &surface_) {
       InnerGraph fine(input_, solid_, execution_);
-      const RoutingResult again = route_inside(graph_, surface_, solid_, fine);
+      const RoutingResult again = route_arcs_inside(graph_, solid_, fine);
       counts_.routing.routed += again.routed;
       counts_.routing.unroutable = again.unroutable;
     }

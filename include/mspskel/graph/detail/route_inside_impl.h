@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <string>
 
 #include "mspskel/base/linkage.h"
 #include "mspskel/graph/detail/hub_components.h"
@@ -29,33 +30,21 @@ inline void route_arc(Arc& arc, const BoundingVolumeHierarchy& solid, InnerGraph
   arc.points = std::move(points);
 }
 
-}  // namespace detail
-
-MSPSKEL_INLINE RoutingResult route_inside(ArcGraph& graph, const SurfaceSnapshot& surface,
-                                          const BoundingVolumeHierarchy& solid) {
-  detail::InnerGraph inner(surface, solid);
-  return route_inside(graph, surface, solid, inner);
-}
-
-MSPSKEL_INLINE RoutingResult route_inside(ArcGraph& graph, const SurfaceSnapshot& surface,
-                                          const BoundingVolumeHierarchy& solid, detail::InnerGraph& inner) {
-  RoutingResult result;
-  std::vector<Index> hubs, arcs;
+// Hubs that lie outside, each to the nearest chord middle of its own part: another limb's chords may lie
+// nearer. The graph's map is of the vertices of `inner`'s surface. Returns how many it moved.
+inline Index move_hubs_inside(ArcGraph& graph, const BoundingVolumeHierarchy& solid, InnerGraph& inner) {
+  std::vector<Index> hubs;
   for (Index h = 0; h < graph.hub_count(); ++h)
     if (graph.hub_alive[h] && !solid.inside(graph.hub_position[h])) hubs.push_back(h);
-  for (Index a = 0; a < graph.arc_count(); ++a) {
-    const Arc& arc = graph.arcs[a];
-    bool crosses = false;
-    for (const Index h : hubs) crosses = crosses || (arc.alive && (arc.hub[0] == h || arc.hub[1] == h));
-    for (std::size_t i = 1; i < arc.points.size() && arc.alive && !crosses; ++i)
-      crosses = solid.segment_crosses(arc.points[i - 1], arc.points[i]);
-    if (crosses) arcs.push_back(a);
-  }
-  if (hubs.empty() && arcs.empty()) return result;
+  if (hubs.empty()) return 0;
+  const SurfaceSnapshot& surface = inner.surface();
+  if (graph.arc_of_vertex.size() != surface.position.size())
+    throw UsageError("the graph's map is of " + std::to_string(graph.arc_of_vertex.size()) +
+                     " vertices, the surface has " + std::to_string(surface.position.size()));
   inner.prepare();
-  const std::vector<Index> component = detail::hub_components(graph, surface);
+  Index moved = 0;
+  const std::vector<Index> component = hub_components(graph, surface);
   for (const Index h : hubs) {
-    // Another limb's chords may lie nearer than those of the hub's own part.
     const auto own = [&](Index w) {
       const Index a = graph.arc_of_vertex[w];
       return graph.hub_of_vertex[w] == h ||
@@ -68,9 +57,40 @@ MSPSKEL_INLINE RoutingResult route_inside(ArcGraph& graph, const SurfaceSnapshot
       });
     if (v == kNone) continue;
     graph.move_hub(h, inner.point(v));
-    ++result.hubs_moved;
+    ++moved;
   }
-  for (const Index a : arcs) detail::route_arc(graph.arcs[a], solid, inner, result);
+  return moved;
+}
+
+}  // namespace detail
+
+MSPSKEL_INLINE RoutingResult route_inside(ArcGraph& graph, const BoundingVolumeHierarchy& solid,
+                                          const SurfaceSnapshot& surface) {
+  detail::InnerGraph inner(surface, solid);
+  return route_inside(graph, solid, inner);
+}
+
+MSPSKEL_INLINE RoutingResult route_inside(ArcGraph& graph, const BoundingVolumeHierarchy& solid,
+                                          detail::InnerGraph& inner) {
+  RoutingResult result;
+  result.hubs_moved = detail::move_hubs_inside(graph, solid, inner);
+  const RoutingResult arcs = route_arcs_inside(graph, solid, inner);
+  result.routed = arcs.routed;
+  result.unroutable = arcs.unroutable;
+  return result;
+}
+
+MSPSKEL_INLINE RoutingResult route_arcs_inside(ArcGraph& graph, const BoundingVolumeHierarchy& solid,
+                                               detail::InnerGraph& inner) {
+  RoutingResult result;
+  for (Arc& arc : graph.arcs) {
+    bool crosses = false;
+    for (std::size_t i = 1; i < arc.points.size() && arc.alive && !crosses; ++i)
+      crosses = solid.segment_crosses(arc.points[i - 1], arc.points[i]);
+    if (!crosses) continue;
+    inner.prepare();
+    detail::route_arc(arc, solid, inner, result);
+  }
   return result;
 }
 

@@ -1,0 +1,129 @@
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "mspskel/base/linkage.h"
+
+namespace mspskel {
+namespace detail {
+
+struct ComponentBox {
+  Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  Vector3 first = Vector3::Zero();  // a vertex of the component
+
+  bool contains(const Vector3& p) const {
+    return (p.array() >= low.array()).all() && (p.array() <= high.array()).all();
+  }
+};
+
+inline std::vector<ComponentBox> component_boxes(const SurfaceSnapshot& surface) {
+  std::vector<ComponentBox> boxes(surface.component_count);
+  for (Index v = surface.vertex_count() - 1; v >= 0; --v) {
+    const Index c = surface.component[v];
+    if (c == kNone) continue;
+    ComponentBox& box = boxes[c];
+    const Vector3& p = surface.position[v];
+    box.low = box.low.cwiseMin(p);
+    box.high = box.high.cwiseMax(p);
+    box.first = p;
+  }
+  return boxes;
+}
+
+// Per component those around it, found by a sweep along x over the components' first vertices.
+inline std::vector<std::vector<Index>> components_around(const SurfaceSnapshot& surface,
+                                                         const std::vector<std::vector<Index>>& own_faces,
+                                                         const std::vector<ComponentBox>& boxes,
+                                                         const ProgressCallback& progress) {
+  const Index n = surface.component_count;
+  std::vector<std::pair<double, Index>> by_x;
+  for (Index c = 0; c < n; ++c) by_x.emplace_back(boxes[c].first.x(), c);
+  std::sort(by_x.begin(), by_x.end());
+  std::vector<std::vector<Index>> around(n);
+  for (Index outer = 0; outer < n; ++outer) {
+    if (outer % 64 == 0) report_progress(progress, "components", static_cast<double>(outer) / n);
+    std::vector<Index> candidates;
+    for (auto it = std::lower_bound(by_x.begin(), by_x.end(), std::make_pair(boxes[outer].low.x(), Index{0}));
+         it != by_x.end() && it->first <= boxes[outer].high.x(); ++it)
+      if (it->second != outer && boxes[outer].contains(boxes[it->second].first))
+        candidates.push_back(it->second);
+    if (candidates.empty()) continue;
+    const BoundingVolumeHierarchy hierarchy(surface, own_faces[outer]);
+    for (const Index inner : candidates)
+      if (hierarchy.inside(boxes[inner].first)) around[inner].push_back(outer);
+  }
+  return around;
+}
+
+}  // namespace detail
+
+MSPSKEL_INLINE ComponentSolids find_component_solids(const SurfaceSnapshot& surface,
+                                                     const ProgressCallback& progress) {
+  const Index n = surface.component_count;
+  ComponentSolids solids;
+  solids.around.assign(n, kNone);
+  solids.cavity.assign(n, 0);
+  solids.signed_volume.assign(n, 0.0);
+  solids.faces.resize(n);
+  const std::vector<detail::ComponentBox> boxes = detail::component_boxes(surface);
+  for (Index f = 0; f < surface.face_count(); ++f) {
+    const Index c = surface.component[surface.origin[3 * f]];
+    solids.faces[c].push_back(f);
+    solids.signed_volume[c] += surface.face_normal_times_twice_area(f).dot(
+                                   surface.position[surface.origin[3 * f]] - boxes[c].first) /
+                               6;
+  }
+  const auto around = detail::components_around(surface, solids.faces, boxes, progress);
+  for (Index c = 0; c < n; ++c)
+    for (const Index outer : around[c])
+      if (solids.around[c] == kNone || around[outer].size() > around[solids.around[c]].size())
+        solids.around[c] = outer;
+  const std::vector<std::vector<Index>> own = solids.faces;
+  for (Index c = 0; c < n; ++c) {
+    const Index outer = solids.around[c];
+    if (outer == kNone || (solids.signed_volume[c] < 0) == (solids.signed_volume[outer] < 0)) continue;
+    solids.faces[outer].insert(solids.faces[outer].end(), own[c].begin(), own[c].end());
+    // What floats in a cavity is turned as the outermost one is, and no cavity itself.
+    Index depth = 0;
+    for (Index d = outer; d != kNone; d = solids.around[d]) ++depth;
+    solids.cavity[c] = depth % 2 == 1;
+  }
+  return solids;
+}
+
+MSPSKEL_INLINE SurfacePart surface_part(const SurfaceSnapshot& surface, const std::vector<Index>& faces,
+                                        std::size_t measured) {
+  SurfacePart part;
+  for (const Index f : faces)
+    for (Index h = 3 * f; h < 3 * f + 3; ++h) part.vertex.push_back(surface.origin[h]);
+  std::sort(part.vertex.begin(), part.vertex.end());
+  part.vertex.erase(std::unique(part.vertex.begin(), part.vertex.end()), part.vertex.end());
+  const auto number = [](const std::vector<Index>& sorted, Index x) {
+    return static_cast<Index>(std::lower_bound(sorted.begin(), sorted.end(), x) - sorted.begin());
+  };
+  std::vector<Index> sorted = faces;
+  std::sort(sorted.begin(), sorted.end());
+  SurfaceSnapshot& s = part.surface;
+  for (const Index v : part.vertex) s.position.push_back(surface.frame.to_model(surface.position[v]));
+  for (const Index f : sorted)
+    for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+      const Index twin = surface.twin[h];
+      s.origin.push_back(number(part.vertex, surface.origin[h]));
+      s.twin.push_back(3 * number(sorted, twin / 3) + twin % 3);
+    }
+  if (measured == faces.size()) {
+    s.vertex_halfedge.assign(s.position.size(), 0);  // every vertex has faces
+    detail::normalise(s);
+  } else {
+    s.frame = surface_part(surface, {faces.begin(), faces.begin() + static_cast<std::ptrdiff_t>(measured)},
+                           measured)
+                  .surface.frame;
+    for (Vector3& p : s.position) p = s.frame.to_normalised(p);
+  }
+  detail::complete_snapshot(s);
+  return part;
+}
+
+}  // namespace mspskel

@@ -1,0 +1,3 @@
+#include "mspskel/mesh/component_solids.h"
+
+#include "mspskel/mesh/detail/component_solids_impl.h"
