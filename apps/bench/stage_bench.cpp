@@ -5,7 +5,14 @@
 
 #include "benchmarks.h"
 #include "models.h"
+#include "mspskel/center/spatial_coherence.h"
 #include "mspskel/extract_skeleton.h"
+#include "mspskel/graph/collapsed_arcs.h"
+#include "mspskel/graph/find_digits.h"
+#include "mspskel/graph/limb_tips.h"
+#include "mspskel/graph/reach_digits.h"
+#include "mspskel/graph/restore_cycles.h"
+#include "mspskel/mesh/bounding_volume_hierarchy.h"
 
 namespace mspskel::bench {
 namespace {

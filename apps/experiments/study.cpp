@@ -5,6 +5,8 @@
 
 #include "baseline.h"
 #include "mspskel/base/stopwatch.h"
+#include "mspskel/graph/collapsed_arcs.h"
+#include "mspskel/mesh/bounding_volume_hierarchy.h"
 
 namespace mspskel::experiments {
 namespace {

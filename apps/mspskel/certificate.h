@@ -4,6 +4,7 @@
 #include "command_line.h"
 #include "mspskel/collapse/topology_certificate.h"
 #include "mspskel/graph/curve_skeleton.h"
+#include "mspskel/mesh/bounding_volume_hierarchy.h"
 
 namespace mspskel::cli {
 

@@ -10,6 +10,7 @@
 #include "mspskel/io/atomic_file.h"
 #include "mspskel/io/read_mesh.h"
 #include "mspskel/io/read_skeleton.h"
+#include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/mesh/surface_snapshot.h"
 #include "report.h"
 

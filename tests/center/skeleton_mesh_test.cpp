@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/slice/minimum_slice_perimeter.h"
 #include "mspskel/slice/slice_error.h"
 #include "support/meshes.h"

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
+#include "mspskel/graph/collapsed_arcs.h"
 #include "mspskel/graph/make_curve_skeleton.h"
 
 using namespace mspskel;

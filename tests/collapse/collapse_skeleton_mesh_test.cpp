@@ -6,6 +6,7 @@
 
 #include "mspskel/collapse/volume_cocycles.h"
 #include "mspskel/graph/branch_filter.h"
+#include "mspskel/graph/collapsed_arcs.h"
 #include "mspskel/graph/make_curve_skeleton.h"
 #include "support/meshes.h"
 #include "topology/voxel_solids.h"

@@ -3,6 +3,7 @@
 
 #include "extract/unusual_meshes.h"
 #include "mspskel/extract_skeleton.h"
+#include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/mesh/component_solids.h"
 #include "mspskel/samples/samples.h"
 

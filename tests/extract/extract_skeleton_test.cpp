@@ -6,6 +6,8 @@
 #include <set>
 
 #include "mspskel/graph/check_skeleton.h"
+#include "mspskel/graph/surface_map.h"
+#include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/mesh/mesh_report.h"
 #include "support/meshes.h"
 

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "mspskel/extract_skeleton.h"
+#include "mspskel/graph/surface_map.h"
 #include "mspskel/mesh/mesh_report.h"
 
 using namespace mspskel;

@@ -4,7 +4,18 @@
 
 #include "graph/arc_graphs.h"
 #include "graph/solids.h"
+#include "mspskel/graph/aim_ends.h"
+#include "mspskel/graph/center_arcs.h"
+#include "mspskel/graph/complete_limbs.h"
+#include "mspskel/graph/detail/arc_leaves.h"
+#include "mspskel/graph/extend_ends.h"
+#include "mspskel/graph/limb_tips.h"
+#include "mspskel/graph/merge_joints.h"
+#include "mspskel/graph/prune_branches.h"
 #include "mspskel/graph/refine_arcs.h"
+#include "mspskel/graph/route_inside.h"
+#include "mspskel/graph/zip_arcs.h"
+#include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/samples/skin_graph.h"
 
 using namespace mspskel;

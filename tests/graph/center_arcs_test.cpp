@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "graph/arc_graphs.h"
+#include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/samples/skin_graph.h"
 
 using namespace mspskel;

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "mspskel/graph/radius.h"
+#include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "support/meshes.h"
 
 using namespace mspskel;

@@ -5,6 +5,8 @@
 #include <set>
 
 #include "graph/arc_graphs.h"
+#include "mspskel/graph/surface_map.h"
+#include "mspskel/mesh/bounding_volume_hierarchy.h"
 
 using namespace mspskel;
 using namespace mspskel::test;

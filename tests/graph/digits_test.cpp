@@ -6,6 +6,7 @@
 #include "graph/arc_graphs.h"
 #include "graph/solids.h"
 #include "mspskel/extract_skeleton.h"
+#include "mspskel/graph/find_digits.h"
 #include "mspskel/graph/reach_digits.h"
 
 using namespace mspskel;

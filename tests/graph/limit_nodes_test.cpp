@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/mesh/surface_snapshot.h"
 #include "support/meshes.h"
 

@@ -6,6 +6,7 @@
 
 #include "graph/solids.h"
 #include "mspskel/extract_skeleton.h"
+#include "mspskel/graph/limb_tips.h"
 #include "mspskel/samples/polygonise.h"
 
 using namespace mspskel;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/samples/samples.h"
 #include "support/meshes.h"
 

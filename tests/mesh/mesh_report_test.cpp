@@ -3,6 +3,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "mspskel/mesh/bounding_volume_hierarchy.h"
+#include "mspskel/mesh/self_intersection.h"
 #include "support/meshes.h"
 
 using namespace mspskel;

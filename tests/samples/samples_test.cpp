@@ -6,6 +6,7 @@
 #include <set>
 
 #include "mspskel/base/error.h"
+#include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/mesh/self_intersection.h"
 #include "support/meshes.h"
 

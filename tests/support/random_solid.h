@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/mesh/self_intersection.h"
 #include "mspskel/samples/skin_graph.h"
 #include "support/meshes.h"

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "topology/voxel_solids.h"
 
 using namespace mspskel;

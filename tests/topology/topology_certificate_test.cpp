@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <map>
 
+#include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "topology/voxel_solids.h"
 
 using namespace mspskel;
