@@ -65,6 +65,8 @@ struct TopologyCertificate {
   // that are not inside from end to end.
   double inside = 0.0;
   Index edges_not_inside = 0;
+  std::optional<Vector3> outside_at;  // a place outside, normalised units; of edges that only graze the
+                                      // surface, none may be found
 };
 
 // The component that each node stands for, from the map of the surface's vertices to nodes (kNone entries are

@@ -154,12 +154,20 @@ inline void measure_inside(const SolidHierarchies& solid, const PolylineGraph& g
       continue;
     }
     ++certificate.edges_not_inside;
-    for (int k = 0; k < kSamples; ++k)
-      if (hierarchy.inside(p + (k + 0.5) / kSamples * (q - p))) inside += length / kSamples;
+    for (int k = 0; k < kSamples; ++k) {
+      const Vector3 x = p + (k + 0.5) / kSamples * (q - p);
+      if (hierarchy.inside(x))
+        inside += length / kSamples;
+      else if (!certificate.outside_at)
+        certificate.outside_at = x;
+    }
   }
   bool lone_outside = false;
   for (std::size_t v = 0; v < has_edge.size(); ++v)
-    if (!has_edge[v] && !solid(component[v]).inside(graph.position[v])) lone_outside = true;
+    if (!has_edge[v] && !solid(component[v]).inside(graph.position[v])) {
+      lone_outside = true;
+      if (!certificate.outside_at) certificate.outside_at = graph.position[v];
+    }
   if (lone_outside) ++certificate.edges_not_inside;
   certificate.inside = total > 0 ? inside / total : (lone_outside ? 0.0 : 1.0);
 }
