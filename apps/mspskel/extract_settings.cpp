@@ -22,7 +22,8 @@ constexpr const char* kFooter =
   mspskel check MESH SKELETON              verifies a skeleton against its mesh
 
 Exit status: 0 done, 1 usage, 2 cannot read, 3 the mesh is not usable, 4 cannot write,
-5 no skeleton could be made, 6 time limit or interrupted.
+5 no skeleton, or one whose pieces or cycles are not the mesh's (see --keep-failed),
+6 time limit or interrupted.
 )";
 
 // The mode decides what the other options' defaults are, so it is looked for first; whether the word is a

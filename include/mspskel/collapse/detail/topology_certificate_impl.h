@@ -185,8 +185,9 @@ inline std::string obstacle(const TopologyCertificate& certificate, bool clear, 
   return {};
 }
 
-// Sets verdict and reason; `obstacle` as above.
-inline void judge(const std::string& obstacle, TopologyCertificate& c) {
+// Sets verdict and reason; `obstacle` as above. What excuses a proof does not excuse the count of the
+// crossings, unless it is not known which component's they are.
+inline void judge(const std::string& obstacle, bool known_shells, TopologyCertificate& c) {
   const auto wrong = [&](const char* what, Index is, Index should_be) {
     c.verdict = TopologyVerdict::kFailed;
     c.reason = what + std::to_string(is) + ", not " + std::to_string(should_be);
@@ -197,7 +198,7 @@ inline void judge(const std::string& obstacle, TopologyCertificate& c) {
     wrong("b0 is ", c.b0, c.components);
   else if (c.b1 != c.total_genus)
     wrong("b1 is ", c.b1, c.total_genus);
-  else if (obstacle.empty() && c.crossing_rank != c.total_genus)
+  else if (known_shells && c.crossing_rank != c.total_genus)
     wrong("the cycles cross the discs with rank ", c.crossing_rank, c.total_genus);
 }
 
@@ -248,7 +249,7 @@ MSPSKEL_INLINE TopologyCertificate certify_topology(const SurfaceSnapshot& surfa
   detail::measure_inside(detail::SolidHierarchies(surface, hierarchy, nested && known_shells), graph,
                          component, c);
   const bool matched = detail::pieces_match_components(surface, piece, component);
-  detail::judge(detail::obstacle(c, crossings.clear, matched, known_shells), c);
+  detail::judge(detail::obstacle(c, crossings.clear, matched, known_shells), known_shells, c);
   return c;
 }
 
