@@ -226,8 +226,9 @@ MSPSKEL_INLINE TopologyCertificate certify_topology(const SurfaceSnapshot& surfa
   detail::check_graph(surface, graph);
   TopologyCertificate c;
   c.components = surface.component_count;
-  for (const ComponentReport& component : report_mesh(surface, hierarchy, {0}).components)
-    c.nested_components += component.depth > 0;
+  if (surface.component_count > 1)  // one alone lies in no other
+    for (const ComponentReport& component : report_mesh(surface, hierarchy, {0}).components)
+      c.nested_components += component.depth > 0;
   c.self_intersecting = options.self_intersecting ? *options.self_intersecting
                                                   : count_self_intersections(surface, hierarchy, 1) > 0;
   c.genus = cocycles.genus;
