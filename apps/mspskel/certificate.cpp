@@ -1,9 +1,13 @@
 #include "certificate.h"
 
+#include "mspskel/io/write_skeleton.h"
+
 namespace mspskel::cli {
 
 TopologyCertificate certify(const SurfaceSnapshot& surface, const VolumeCocycles& cocycles,
-                            const BoundingVolumeHierarchy& hierarchy, const CurveSkeleton& skeleton) {
+                            const BoundingVolumeHierarchy& hierarchy, const CurveSkeleton& skeleton,
+                            CertificateDepth depth) {
+  refuse_not_finite(skeleton);
   PolylineGraph graph;
   for (const SkeletonNode& node : skeleton.nodes)
     graph.position.push_back(surface.frame.to_normalised(node.position));
@@ -11,7 +15,10 @@ TopologyCertificate certify(const SurfaceSnapshot& surface, const VolumeCocycles
   if (!skeleton.node_of_vertex.empty())
     graph.component =
         component_of_nodes(surface, static_cast<Index>(skeleton.nodes.size()), skeleton.node_of_vertex);
-  return certify_topology(surface, cocycles, hierarchy, graph);
+  CertificateOptions options;
+  // Whether the surface crosses itself decides between "proved" and "kept", never over "failed".
+  if (depth == CertificateDepth::kVerdict) options.self_intersecting = false;
+  return certify_topology(surface, cocycles, hierarchy, graph, options);
 }
 
 Json certificate_json(const TopologyCertificate& c) {

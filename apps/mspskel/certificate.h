@@ -8,9 +8,17 @@
 
 namespace mspskel::cli {
 
-// `hierarchy` is that of the surface; the skeleton is in model units and may lack its surface map.
+enum class CertificateDepth {
+  kVerdict,  // whether the skeleton fails; "proved" then means that nothing but a crossing surface is against
+             // it
+  kFull,     // the surface is tested for self-intersections too
+};
+
+// `hierarchy` is that of the surface; the skeleton is in model units and may lack its surface map. Throws
+// NoSkeletonError if a number of the skeleton is not finite.
 TopologyCertificate certify(const SurfaceSnapshot& surface, const VolumeCocycles& cocycles,
-                            const BoundingVolumeHierarchy& hierarchy, const CurveSkeleton& skeleton);
+                            const BoundingVolumeHierarchy& hierarchy, const CurveSkeleton& skeleton,
+                            CertificateDepth depth);
 
 Json certificate_json(const TopologyCertificate& certificate);
 

@@ -5,6 +5,8 @@
 #include "certificate.h"
 #include "command_line.h"
 #include "commands.h"
+#include "distinct_files.h"
+#include "mspskel/base/counted.h"
 #include "mspskel/base/error.h"
 #include "mspskel/graph/check_skeleton.h"
 #include "mspskel/io/atomic_file.h"
@@ -13,6 +15,7 @@
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/mesh/surface_snapshot.h"
 #include "report.h"
+#include "verdict.h"
 
 namespace mspskel::cli {
 namespace {
@@ -45,18 +48,19 @@ Json checks_json(const SkeletonChecks& checks, const TopologyCertificate& certif
 }
 
 void print(const SkeletonChecks& c, const TopologyCertificate& certificate) {
-  std::printf("topology     %s: %d piece%s and %d cycle%s on a surface of %d component%s and genus %d\n",
-              c.topology ? "right" : "WRONG", c.b0, c.b0 == 1 ? "" : "s", c.b1, c.b1 == 1 ? "" : "s",
-              c.components, c.components == 1 ? "" : "s", c.genus);
+  std::printf("topology     %s: %s and %s on a surface of %s and genus %d\n", c.topology ? "right" : "WRONG",
+              counted(c.b0, "piece").c_str(), counted(c.b1, "cycle").c_str(),
+              counted(c.components, "component").c_str(), c.genus);
   std::printf("certificate  %s%s%s\n", to_string(certificate.verdict), certificate.reason.empty() ? "" : ": ",
               certificate.reason.c_str());
-  std::printf("inside       %.4g %% of the length; %d nodes outside, %d edges through the surface\n",
-              100 * c.inside, c.outside_nodes, c.crossing_edges);
+  std::printf("inside       %.4g %% of the length; %s outside, %s through the surface\n", 100 * c.inside,
+              counted(c.outside_nodes, "node").c_str(), counted(c.crossing_edges, "edge").c_str());
   std::printf("off centre   mean %.4f, 90th percentile %.4f (0: centred, 1: at the wall)\n",
               c.off_centre_mean, c.off_centre_p90);
   std::printf("cover        mean %.4f, 95th percentile %.4f of the diagonal\n", c.cover_mean, c.cover_p95);
-  std::printf("graph        %d nodes, %d edges, %d leaves, %d joints, %d spurs\n", c.nodes, c.edges, c.leaves,
-              c.joints, c.spurs);
+  std::printf("graph        %s, %s, %s, %s, %s\n", counted(c.nodes, "node").c_str(),
+              counted(c.edges, "edge").c_str(), counted(c.leaves, "leaf", "leaves").c_str(),
+              counted(c.joints, "joint").c_str(), counted(c.spurs, "spur").c_str());
   std::printf("arcs         length %.4f, longest edge %.4f of the diagonal, bend %.2f degrees\n", c.length,
               c.longest_edge, c.bend);
   std::printf("radius       off by %.3g of the diagonal at most\n", c.radius_error);
@@ -69,9 +73,10 @@ int check_command(const std::vector<std::string>& arguments) {
   double least_inside = 1;
   bool quiet = false;
   Execution execution;
-  CommandLine line("check MESH SKELETON [options]",
-                   "Verifies a skeleton against its mesh: pieces, cycles, containment, centredness, radius.",
-                   "Exit status 0 if the topology is right and enough of the skeleton inside, 5 if not.\n");
+  CommandLine line(
+      "check MESH SKELETON [options]",
+      "Verifies a skeleton against its mesh: pieces, cycles, containment, centredness, radius.",
+      "Exit status 0 if the certificate is not \"failed\" and enough of the skeleton inside, 5 if not.\n");
   line.argument("MESH", mesh_path, "mesh (.off .obj .ply .stl), - for stdin")->required();
   line.argument("SKELETON", skeleton_path, "skeleton (.skel .obj .ply .json)")->required();
   line.number("--least-inside", least_inside, {0, 1}, "share of the length that must be inside");
@@ -80,16 +85,22 @@ int check_command(const std::vector<std::string>& arguments) {
   line.number("-t,--threads", execution.threads, {0, 4096}, "0: as many as the machine has");
   if (!line.parse(arguments)) return 0;
 
+  refuse_shared_files({{mesh_path, "the mesh"}, {skeleton_path, "the skeleton"}},
+                      {{json_path, "the figures"}});
   const SurfaceSnapshot surface = make_snapshot(read_mesh(mesh_path));
   const CurveSkeleton skeleton = read_skeleton(skeleton_path);
   const BoundingVolumeHierarchy solid(surface);
   const SkeletonChecks checks = check_skeleton(surface, solid, skeleton, execution);
-  const TopologyCertificate certificate = certify(surface, compute_volume_cocycles(surface), solid, skeleton);
+  const TopologyCertificate certificate =
+      certify(surface, compute_volume_cocycles(surface), solid, skeleton, CertificateDepth::kFull);
+  const Verdict verdict = judge(surface, certificate);
   const bool inside = least_inside < 1 ? checks.inside >= least_inside : checks.contained;
   if (!json_path.empty()) write_file_atomically(json_path, report_text(checks_json(checks, certificate)));
   if (!quiet && json_path != "-") print(checks, certificate);
-  if (!checks.topology) throw NoSkeletonError("the skeleton's topology is not the mesh's");
-  if (!inside) throw NoSkeletonError("the skeleton leaves the solid");
+  if (!verdict.failure.empty()) throw NoSkeletonError(verdict.failure);
+  if (inside) return 0;
+  throw NoSkeletonError(verdict.warnings.empty() ? "the skeleton leaves the solid"
+                                                 : verdict.warnings.front());
   return 0;
 }
 

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <charconv>
-#include <iomanip>
+#include <cmath>
+#include <cstdint>
 #include <iostream>
 #include <limits>
 #include <memory>
@@ -31,10 +32,13 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
   return last[b.size()];
 }
 
+// The shortest text that reads back the same, whole numbers without an exponent.
 std::string number_text(double x) {
-  std::ostringstream out;
-  out << std::setprecision(10) << x;
-  return out.str();
+  char digits[32];
+  const bool whole = std::abs(x) < 1e16 && x == std::floor(x);
+  const auto end = whole ? std::to_chars(digits, digits + sizeof digits, static_cast<std::int64_t>(x))
+                         : std::to_chars(digits, digits + sizeof digits, x);
+  return {digits, end.ptr};
 }
 
 // `text` in lines of at most `width` letters.
@@ -171,10 +175,14 @@ bool CommandLine::parse(const std::vector<std::string>& arguments) {
 }
 
 void CommandLine::refuse_unknown() const {
-  const std::vector<std::string> unknown = app_.remaining();
+  std::vector<std::string> unknown = app_.remaining();
+  // The mark after which all words are arguments counts as one that is left over.
+  const auto mark = std::find(unknown.begin(), unknown.end(), "--");
+  const bool is_argument = mark == unknown.begin() || unknown.front().front() != '-';
+  if (mark != unknown.end()) unknown.erase(mark);
   if (unknown.empty()) return;
   const std::string word = unknown.front().substr(0, unknown.front().find('='));
-  if (word.front() != '-') throw UsageError("too many arguments: " + word);
+  if (is_argument) throw UsageError("too many arguments: " + word);
   std::vector<std::string> known;
   for (const CLI::Option* option : app_.get_options()) {
     for (const std::string& name : option->get_lnames()) known.push_back("--" + name);

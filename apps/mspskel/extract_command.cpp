@@ -8,6 +8,7 @@
 
 #include "cancellation.h"
 #include "commands.h"
+#include "distinct_files.h"
 #include "extract_settings.h"
 #include "mspskel/base/error.h"
 #include "mspskel/base/progress.h"
@@ -20,26 +21,53 @@
 #include "stage_files.h"
 #include "terminal.h"
 #include "thread_placement.h"
+#include "verdict.h"
 
 namespace mspskel::cli {
 namespace {
 
-// A file can be made there, or the folder can, as far as one can tell beforehand.
-void check_writable(const std::filesystem::path& path) {
-  if (path == "-") return;
-  std::error_code ignored;
-  std::filesystem::path folder = std::filesystem::absolute(path, ignored).parent_path();
-  if (std::filesystem::is_directory(path, ignored)) throw WriteError(path.string() + " is a folder");
+namespace fs = std::filesystem;
+
+void check_folder(const fs::path& path, const fs::path& folder) {
   if (access(folder.c_str(), W_OK | X_OK) != 0)
     throw WriteError("cannot write " + path.string() + ": " + std::strerror(errno));
 }
 
-// A wrong extension or folder shows before the work, not after it.
+// A file can be made there, as far as one can tell beforehand.
+void check_writable(const fs::path& path) {
+  if (path == "-") return;
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored)) throw WriteError(path.string() + " is a folder");
+  check_folder(path, fs::absolute(path, ignored).parent_path());
+}
+
+// The same for a folder, which is not made before there is something to put into it.
+void check_folder_writable(const fs::path& path) {
+  std::error_code ignored;
+  fs::path there = fs::absolute(path, ignored);
+  while (!fs::exists(there, ignored) && there.has_parent_path()) there = there.parent_path();
+  if (!fs::is_directory(there, ignored))
+    throw WriteError("cannot write to " + path.string() + ": " + there.string() + " is not a folder");
+  check_folder(path, there);
+}
+
+// What is wrong with the places of the outputs shows before the work, not after it.
 void check_outputs(const ExtractSettings& settings) {
-  for (const std::string& output : settings.outputs) skeleton_format_of(output);
+  std::vector<FileRole> written;
+  for (const std::string& output : settings.outputs) {
+    skeleton_format_of(output);
+    written.push_back({output, "an output"});
+  }
+  written.push_back({settings.report, "the report"});
+  if (!settings.stages.empty()) {
+    written.push_back({settings.stages, "the folder of the stages"});
+    for (const std::string& path : stage_file_paths(settings.stages))
+      written.push_back({path, "a file of the stages"});
+  }
+  refuse_shared_files({{settings.input, "the mesh"}}, written);
   for (const std::string& output : settings.outputs) check_writable(output);
   if (!settings.report.empty()) check_writable(settings.report);
-  if (!settings.stages.empty()) make_stage_folder(settings.stages);
+  if (!settings.stages.empty()) check_folder_writable(settings.stages);
 }
 
 bool writes_json(const ExtractSettings& settings) {
@@ -54,6 +82,59 @@ void add_losses(const ExtractSettings& settings, ExtractResult& result) {
       result.warnings.push_back(output + ": " + loss);
 }
 
+void show_warnings(const ExtractResult& result, Terminal& terminal) {
+  terminal.clear_progress();
+  for (const std::string& warning : result.warnings) terminal.warning(warning);
+}
+
+struct Extraction {
+  ExtractResult result;
+  bool reported = false;  // as JSON, somewhere
+  Json facts;             // if so
+  std::string failure;    // of the checks; empty: none
+};
+
+Extraction extract_and_check(const ExtractSettings& settings, const Cancellation& cancellation,
+                             ProgramSeconds& seconds) {
+  const Stopwatch reading;
+  const BuiltMesh input = build_mesh_with_report(read_polygon_soup(settings.input));
+  seconds.read = reading.seconds();
+  cancellation.throw_if_requested();
+  Extraction made;
+  made.result = extract_skeleton(input.mesh, settings.options);
+  ExtractResult& result = made.result;
+  result.warnings.insert(result.warnings.begin(), input.warnings.begin(), input.warnings.end());
+  add_losses(settings, result);
+  made.reported = !settings.report.empty() || settings.verbose || writes_json(settings);
+
+  const Stopwatch checking;
+  const TopologyCertificate certificate =
+      certify(result.surface, result.cocycles, *result.solid, result.skeleton,
+              made.reported ? CertificateDepth::kFull : CertificateDepth::kVerdict);
+  result.seconds.emplace_back("checks", checking.seconds());
+  Verdict verdict = judge(result.surface, certificate);
+  result.warnings.insert(result.warnings.end(), verdict.warnings.begin(), verdict.warnings.end());
+  made.failure = std::move(verdict.failure);
+  if (made.reported) made.facts = make_report(settings, result, certificate);
+  return made;
+}
+
+void write_files(const ExtractSettings& settings, const Extraction& made, const Stopwatch& total,
+                 ProgramSeconds& seconds, Terminal& terminal) {
+  const Stopwatch writing;
+  for (const std::string& output : settings.outputs)
+    write_skeleton(output, made.result.skeleton, made.reported ? report_text(made.facts) : "");
+  if (!settings.stages.empty()) write_stage_files(settings.stages, made.result);
+  seconds.write = writing.seconds();
+  seconds.total = total.seconds();
+  if (!made.reported) return;
+  const Json report = with_costs(made.facts, settings, made.result, seconds);
+  terminal.clear_progress();
+  for (const char* part : {"input", "counts", "seconds", "skeleton", "checks"})
+    terminal.note(std::string(part) + " " + report_text(report[part], -1));
+  if (!settings.report.empty()) write_file_atomically(settings.report, report_text(report));
+}
+
 void extract(const ExtractSettings& given, const Cancellation& cancellation, Terminal& terminal) {
   ExtractSettings settings = given;
   settings.options.execution.progress = [&](const char* stage, double fraction) {
@@ -63,31 +144,14 @@ void extract(const ExtractSettings& given, const Cancellation& cancellation, Ter
   const Stopwatch total;
   ProgramSeconds seconds;
   check_outputs(settings);
-
   keep_threads_apart(thread_count(settings.options.execution));
-  BuiltMesh input = build_mesh_with_report(read_polygon_soup(settings.input));
-  seconds.read = total.seconds();
+  const Extraction made = extract_and_check(settings, cancellation, seconds);
   cancellation.throw_if_requested();
-  ExtractResult result = extract_skeleton(input.mesh, settings.options);
-  result.warnings.insert(result.warnings.begin(), input.warnings.begin(), input.warnings.end());
-  add_losses(settings, result);
-  const bool reported = !settings.report.empty() || settings.verbose || writes_json(settings);
-  const Json facts = reported ? make_report(settings, result) : Json();
-  cancellation.throw_if_requested();
-
-  const Stopwatch writing;
-  for (const std::string& output : settings.outputs)
-    write_skeleton(output, result.skeleton, reported ? report_text(facts) : "");
-  if (!settings.stages.empty()) write_stage_files(settings.stages, result);
-  seconds.write = writing.seconds();
-  seconds.total = total.seconds();
-  terminal.clear_progress();
-  for (const std::string& warning : result.warnings) terminal.warning(warning);
-  if (!reported) return;
-  const Json report = with_costs(facts, settings, result, seconds);
-  for (const char* part : {"input", "counts", "seconds", "skeleton", "checks"})
-    terminal.note(std::string(part) + " " + report_text(report[part], -1));
-  if (!settings.report.empty()) write_file_atomically(settings.report, report_text(report));
+  show_warnings(made.result, terminal);
+  if (!made.failure.empty() && !settings.keep_failed)
+    throw NoSkeletonError(made.failure + " (--keep-failed writes it all the same)");
+  write_files(settings, made, total, seconds, terminal);
+  if (!made.failure.empty()) throw NoSkeletonError(made.failure);
 }
 
 }  // namespace

@@ -22,14 +22,15 @@ constexpr const char* kFooter =
   mspskel check MESH SKELETON              verifies a skeleton against its mesh
 
 Exit status: 0 done, 1 usage, 2 cannot read, 3 the mesh is not usable, 4 cannot write,
-5 no skeleton could be made, 6 time limit or interrupted.
+5 no skeleton, or one whose pieces or cycles are not the mesh's (see --keep-failed),
+6 time limit or interrupted.
 )";
 
 // The mode decides what the other options' defaults are, so it is looked for first; whether the word is a
 // mode at all is the parser's affair.
 std::string wanted_mode(const std::vector<std::string>& arguments) {
   std::string mode;
-  for (std::size_t i = 0; i < arguments.size(); ++i) {
+  for (std::size_t i = 0; i < arguments.size() && arguments[i] != "--"; ++i) {
     if (arguments[i] == "--mode" && i + 1 < arguments.size()) mode = arguments[i + 1];
     if (arguments[i].rfind("--mode=", 0) == 0) mode = arguments[i].substr(7);
   }
@@ -59,7 +60,7 @@ void add_slice_options(CommandLine& line, ExtractOptions& options, int& planes) 
               "sampling: slice error above which a vertex is refined");
   line.number("--cone-directions", options.cone.directions, {1, 1000}, "sampling: directions in the cone");
   line.number("--cone-min-angle", options.cone.min_angle, {0, 89},
-              "sampling: half angle of the cone at the threshold, degrees");
+              "sampling: half angle of the cone at the threshold, degrees, and not above that at error 1");
   line.number("--cone-max-angle", options.cone.max_angle, {0, 89},
               "sampling: half angle of the cone at error 1, degrees");
   line.choice<SliceErrorAverage>(
@@ -98,7 +99,7 @@ void add_point_options(CommandLine& line, ExtractOptions& options) {
   line.number("--starts", point.starts, {1, 10000}, "force: descents");
   line.toggle("coherence", options.coherence.enabled,
               "move doubtful skeletal points toward their neighbours");
-  line.number("--coherence-strength", options.coherence.strength, {0, 1000},
+  line.number("--coherence-strength", options.coherence.strength, {0, 10},
               "weight of the neighbours against a certain point's own");
 }
 
@@ -161,11 +162,14 @@ bool parse_extract_settings(const std::vector<std::string>& arguments, ExtractSe
   line.number("--time-limit", settings.time_limit, {0, 1e9}, "seconds; 0: none");
   line.text("--report", settings.report, "FILE", "what was done and found, as JSON; - for stdout");
   line.text("--stages", settings.stages, "DIR", "what lies between the stages: msp.csv and coloured meshes");
+  line.flag("--keep-failed", settings.keep_failed,
+            "write the skeleton even if it fails its checks; the exit status is 5 all the same");
   line.flag("-q,--quiet", settings.quiet, "no warnings, no progress");
   line.flag("-v,--verbose", settings.verbose, "a word about every stage");
   line.flag("--version", version, "print the version and the libraries' versions and exit");
   int planes = options.slices == SliceMethod::kSearch ? options.search.angles : options.sampling.planes;
-  double step = options.refinement.centering.step, detail = 1;
+  const double usual_step = options.refinement.centering.step;
+  double step = usual_step, detail = 1;
   add_slice_options(line, options, planes);
   add_point_options(line, options);
   add_collapse_options(line, options);
@@ -178,7 +182,7 @@ bool parse_extract_settings(const std::vector<std::string>& arguments, ExtractSe
   if (settings.input.empty()) throw UsageError("which mesh? usage: mspskel IN [OUT...] [options]");
   options.cone.seed = seed;
   if (line.given("--slices")) options.search.angles = options.sampling.planes = planes;
-  if (line.given("--step")) options.refinement.centering.step = options.refinement.extension.step = step;
+  if (step != usual_step) options.refinement.node_spacing = step;
   options.execution.threads = settings.threads;
   options.refinement.limbs.slenderness /= detail;
   settings.values = line.values();

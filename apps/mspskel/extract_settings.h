@@ -17,6 +17,7 @@ struct ExtractSettings {
   std::string stages;  // folder; empty: none
   double time_limit = 0;
   int threads = 0;
+  bool keep_failed = false;
   bool quiet = false;
   bool verbose = false;
   ExtractOptions options;

@@ -2,7 +2,11 @@
 //
 // The first word picks the command here, and not in CLI11, which would take `check a b` for a mesh named
 // "check". A file of such a name is reached as ./check.
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <exception>
+#include <iostream>
 #include <new>
 #include <string>
 #include <vector>
@@ -25,9 +29,19 @@ int run(const std::vector<std::string>& words) {
   return extract_command(words);
 }
 
+// What is left in the buffers, too: a full disk shows when they are emptied.
+void finish_standard_output() {
+  errno = 0;
+  std::cout.flush();
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
+  throw WriteError(std::string("cannot write standard output: ") + std::strerror(errno != 0 ? errno : EIO));
+}
+
 int run_and_report(const std::vector<std::string>& words) {
   try {
-    return run(words);
+    const int status = run(words);
+    finish_standard_output();
+    return status;
   } catch (const Error& error) {
     Terminal().error(error.what());
     return static_cast<int>(error.kind());

@@ -3,6 +3,7 @@
 
 #include "command_line.h"
 #include "commands.h"
+#include "distinct_files.h"
 #include "mspskel/base/error.h"
 #include "mspskel/io/atomic_file.h"
 #include "mspskel/io/read_mesh.h"
@@ -35,6 +36,9 @@ int render_command(const std::vector<std::string>& arguments) {
     throw UsageError("render takes a mesh, perhaps a skeleton, and a picture");
   if (files.back() != "-" && std::filesystem::path(files.back()).extension() != ".png")
     throw UsageError(files.back() + ": pictures are .png files");
+  std::vector<FileRole> read{{files.front(), "the mesh"}};
+  if (files.size() == 3) read.push_back({files[1], "the skeleton"});
+  refuse_shared_files(read, {{files.back(), "the picture"}});
 
   RenderScene scene;
   scene.surface = read_polygon_soup(files.front());

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "extract_settings.h"
+#include "mspskel/collapse/topology_certificate.h"
 
 namespace mspskel::cli {
 
@@ -14,9 +15,10 @@ struct ProgramSeconds {
   double write = 0;
 };
 
-// What was found, the same on every run: input, counts, skeleton, checks, warnings. The checks hold the
-// topology certificate, which costs a test of the surface for self-intersections.
-Json make_report(const ExtractSettings& settings, const ExtractResult& result);
+// What was found, the same on every run: input, counts, skeleton, checks, warnings. The checks are the
+// certificate.
+Json make_report(const ExtractSettings& settings, const ExtractResult& result,
+                 const TopologyCertificate& certificate);
 
 // With what differs from run to run: options, seconds, peak memory.
 Json with_costs(const Json& report, const ExtractSettings& settings, const ExtractResult& result,

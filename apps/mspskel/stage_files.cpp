@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <vector>
 
@@ -12,12 +13,50 @@
 namespace mspskel::cli {
 namespace {
 
+namespace fs = std::filesystem;
+
+constexpr const char* kNames[] = {"msp.csv",           "msp_initial.ply", "msp.ply",
+                                  "error_initial.ply", "error.ply",       "skeleton_mesh.ply"};
+
+// A folder that goes again, with the files that were noted, unless it is kept.
+class NewFolder {
+ public:
+  explicit NewFolder(const fs::path& folder) {
+    std::error_code failure;
+    fs::path part = fs::absolute(folder, failure).lexically_normal();
+    for (; !part.empty() && !fs::exists(part, failure); part = part.parent_path()) made_.push_back(part);
+    fs::create_directories(folder, failure);
+    if (failure) throw WriteError("cannot make the folder " + folder.string() + ": " + failure.message());
+  }
+  NewFolder(const NewFolder&) = delete;
+  NewFolder& operator=(const NewFolder&) = delete;
+  ~NewFolder() {
+    if (kept_) return;
+    std::error_code ignored;
+    for (const fs::path& file : files_) fs::remove(file, ignored);
+    for (const fs::path& part : made_) fs::remove(part, ignored);  // not if there is more in it
+  }
+  // A file that is about to be made; one that is replaced stays.
+  void note(const fs::path& file) {
+    std::error_code ignored;
+    if (!fs::exists(file, ignored)) files_.push_back(file);
+  }
+  void keep() { kept_ = true; }
+
+ private:
+  std::vector<fs::path> made_;  // the innermost first
+  std::vector<fs::path> files_;
+  bool kept_ = false;
+};
+
 // Lines of comma-separated numbers, the shortest that read back the same.
 class CsvText {
  public:
   explicit CsvText(const std::string& header) : text_(header + "\n") {}
   template <class Number>
   CsvText& operator<<(Number x) {
+    if (!std::isfinite(static_cast<double>(x)))
+      throw NoSkeletonError("a slice or skeletal point has a number that is not finite");
     char digits[32];
     const auto end = std::to_chars(digits, digits + sizeof digits, x).ptr;
     if (!text_.empty() && text_.back() != '\n') text_ += ',';
@@ -58,14 +97,19 @@ PolygonSoup moved_mesh(const SurfaceSnapshot& surface, const std::vector<Vector3
 
 }  // namespace
 
-void make_stage_folder(const std::string& folder) {
-  std::error_code failure;
-  std::filesystem::create_directories(folder, failure);
-  if (failure) throw WriteError(folder + ": " + failure.message());
+std::vector<std::string> stage_file_paths(const std::string& folder) {
+  std::vector<std::string> paths;
+  for (const char* name : kNames) paths.push_back((fs::path(folder) / name).string());
+  return paths;
 }
 
 void write_stage_files(const std::string& folder, const ExtractResult& result) {
-  const auto path = [&](const char* name) { return (std::filesystem::path(folder) / name).string(); };
+  NewFolder made(folder);
+  const auto path = [&](const char* name) {
+    const fs::path file = fs::path(folder) / name;
+    made.note(file);
+    return file.string();
+  };
   write_file_atomically(path("msp.csv"), msp_csv(result));
 
   const PolygonSoup mesh = moved_mesh(result.surface, result.surface.position);
@@ -83,6 +127,7 @@ void write_stage_files(const std::string& folder, const ExtractResult& result) {
   write_coloured("error_initial.ply", result.initial_slices.error, 0, 1);
   write_coloured("error.ply", result.slices.error, 0, 1);
   write_mesh(path("skeleton_mesh.ply"), moved_mesh(result.surface, result.skeleton_mesh.position));
+  made.keep();
 }
 
 }  // namespace mspskel::cli

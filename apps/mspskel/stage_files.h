@@ -2,15 +2,16 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "mspskel/extract_skeleton.h"
 
 namespace mspskel::cli {
 
-// Makes the folder where absent. Throws WriteError.
-void make_stage_folder(const std::string& folder);
+// The files that write_stage_files makes.
+std::vector<std::string> stage_file_paths(const std::string& folder);
 
-// Writes into the folder:
+// Writes into the folder, which is made where absent:
 //   msp.csv            one line a vertex; lengths and positions in model units, errors normalised to [0, 1].
 //                      A vertex without a slice has MSP 0, error 1, and zeros for the rest
 //   msp_initial.ply    the mesh coloured by MSP before cone refinement, blue (least) to red (most)
@@ -18,7 +19,7 @@ void make_stage_folder(const std::string& folder);
 //   error_initial.ply  by slice error before, blue (0) to red (1)
 //   error.ply          by slice error after
 //   skeleton_mesh.ply  the mesh with every vertex at its skeletal point
-// Throws WriteError.
+// Throws WriteError, and takes away what it made before.
 void write_stage_files(const std::string& folder, const ExtractResult& result);
 
 }  // namespace mspskel::cli

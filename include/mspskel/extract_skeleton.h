@@ -1,6 +1,7 @@
 // From a mesh to its curve skeleton in one call: the composition of the public stages.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,6 +16,7 @@
 #include "mspskel/graph/curve_skeleton.h"
 #include "mspskel/graph/refine_arcs.h"
 #include "mspskel/graph/restore_cycles.h"
+#include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/mesh/coarsen_surface.h"
 #include "mspskel/slice/cone_refinement.h"
 #include "mspskel/slice/plane_search.h"
@@ -67,6 +69,8 @@ struct ExtractResult {
   // What lies between the stages, in the order in which they ran; lengths in surface.frame. Everything per
   // vertex is per input vertex; where a coarser surface was used, its values are carried over.
   SurfaceSnapshot surface;
+  // Of `surface`; empty if it has several components, which have solids of their own.
+  std::shared_ptr<const BoundingVolumeHierarchy> solid;
   std::optional<CoarseSurface> coarse;
   VertexSlices initial_slices;  // before cone refinement; equal to slices where nothing refines
   VertexSlices slices;

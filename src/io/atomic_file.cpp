@@ -48,6 +48,9 @@ void replace_file(const std::string& path, const fs::path& target, std::string_v
     fs::remove(temporary, ignored);
     fail(path, std::strerror(error));
   }
+  // A file that is replaced keeps its mode bits.
+  const fs::file_status before = fs::status(target, ignored);
+  if (fs::exists(before)) fs::permissions(temporary, before.permissions(), ignored);
   std::error_code renaming;
   fs::rename(temporary, target, renaming);
   if (!renaming) return;
@@ -56,6 +59,20 @@ void replace_file(const std::string& path, const fs::path& target, std::string_v
 }
 
 }  // namespace
+
+std::filesystem::path file_behind_links(const std::string& path) {
+  constexpr int kMostLinks = 40;
+  fs::path target = path;
+  std::error_code failure;
+  for (int i = 0; i < kMostLinks && fs::is_symlink(target, failure); ++i) {
+    const fs::path next = fs::read_symlink(target, failure);
+    if (failure) fail(path, failure.message());
+    target = target.parent_path() / next;
+  }
+  if (fs::is_symlink(target, failure))
+    fail(path, std::make_error_code(std::errc::too_many_symbolic_link_levels).message());
+  return target;
+}
 
 void write_file_atomically(const std::string& path, std::string_view bytes) {
   if (path.empty()) fail("''", "the file has no name");
@@ -71,10 +88,7 @@ void write_file_atomically(const std::string& path, std::string_view bytes) {
     if (const int error = write_all(file, bytes)) fail(path, std::strerror(error));
     return;
   }
-  std::error_code resolving;
-  fs::path target = fs::is_symlink(path, ignored) ? fs::weakly_canonical(path, resolving) : fs::path(path);
-  if (resolving) fail(path, resolving.message());
-  replace_file(path, target, bytes);
+  replace_file(path, file_behind_links(path), bytes);
 }
 
 }  // namespace mspskel

@@ -1,9 +1,11 @@
 // One parser a format, each in its own file. All of them throw ReadError without the path.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <string_view>
+#include <vector>
 
 #include "mspskel/mesh/polygon_soup.h"
 
@@ -13,6 +15,14 @@ PolygonSoup parse_off(std::string_view bytes);
 PolygonSoup parse_obj(std::string_view bytes);
 PolygonSoup parse_ply(std::string_view bytes);
 PolygonSoup parse_stl(std::string_view bytes);
+
+// What a PLY file holds of a skeleton; nothing of it is checked but that the numbers are finite.
+struct PlyGraph {
+  std::vector<Vector3> points;
+  std::vector<double> radius;  // one a point, or empty
+  std::vector<std::array<std::int64_t, 2>> edges;
+};
+PlyGraph parse_ply_graph(std::string_view bytes);
 
 // Points, polygons and corners are counted in Index.
 inline constexpr std::uint64_t kMostElements = std::numeric_limits<Index>::max();

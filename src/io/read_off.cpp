@@ -1,6 +1,7 @@
 // Geomview's Object File Format: [ST][C][N][4][n]OFF [BINARY], counts, points, polygons.
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "byte_reader.h"
 #include "mesh_parsers.h"
@@ -33,13 +34,21 @@ std::optional<OffHeader> match_keyword(std::string_view word, std::size_t& lengt
     if (there) ++i;
     return there;
   };
-  header.texture = take("st");
-  header.colour = take("c");
-  header.any_dimension = take_dimension();
-  header.normal = !header.any_dimension && take("n");
-  header.homogeneous = take("4");
-  header.any_dimension = header.any_dimension || take_dimension();
-  if (!take("off")) return std::nullopt;
+  const auto take_prefix = [&] {
+    const std::pair<std::string_view, bool*> prefixes[] = {
+        {"st", &header.texture}, {"c", &header.colour}, {"n", &header.normal}, {"4", &header.homogeneous}};
+    for (const auto& [letters, flag] : prefixes)
+      if (!*flag && take(letters)) return *flag = true;
+    return false;
+  };
+  // Geomview wants the prefixes in one order, and not all writers keep to it. A point has the same numbers in
+  // all.
+  while (!take("off")) {
+    if (!header.any_dimension && take_dimension())
+      header.any_dimension = true;
+    else if (!take_prefix())
+      return std::nullopt;
+  }
   length = i;
   return header;
 }
@@ -150,11 +159,23 @@ std::uint64_t read_count(TextScanner& scan, const char* name, std::uint64_t byte
   return static_cast<std::uint64_t>(count);
 }
 
+// The third number of the counts, which some writers leave out: their line ends after two, and the next one
+// holds a point, which is more than one number.
+void skip_edge_count(TextScanner& scan) {
+  const char* here = scan.position();
+  if (!scan.skip_spaces() && scan.skip_blank()) {
+    scan.word();
+    if (scan.skip_spaces()) return scan.seek(here);
+  }
+  scan.seek(here);
+  scan.integer("the number of edges");
+}
+
 PolygonSoup parse_text(TextScanner scan, const OffHeader& header) {
   if (header.any_dimension) check_dimension(scan.integer("the dimension"));
   const std::uint64_t points = read_count(scan, "the number of vertices", 6);
   const std::uint64_t polygons = read_count(scan, "the number of faces", 4);
-  scan.integer("the number of edges");
+  skip_edge_count(scan);
   const bool lines = header.extra_size() > 0;
   try {
     return OffText(scan, header, points, polygons).read({lines, true});

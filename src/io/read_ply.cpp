@@ -2,186 +2,16 @@
 // either byte order.
 #include <array>
 #include <cmath>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "byte_reader.h"
 #include "mesh_parsers.h"
+#include "ply_header.h"
 #include "text_scanner.h"
 
 namespace mspskel::detail {
 namespace {
-
-enum class Scalar { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64 };
-
-std::optional<Scalar> scalar_of(std::string_view name) {
-  struct Name {
-    std::string_view text;
-    Scalar scalar;
-  };
-  static constexpr Name kNames[] = {
-      {"char", Scalar::kInt8},      {"int8", Scalar::kInt8},       {"uchar", Scalar::kUint8},
-      {"uint8", Scalar::kUint8},    {"short", Scalar::kInt16},     {"int16", Scalar::kInt16},
-      {"ushort", Scalar::kUint16},  {"uint16", Scalar::kUint16},   {"int", Scalar::kInt32},
-      {"int32", Scalar::kInt32},    {"uint", Scalar::kUint32},     {"uint32", Scalar::kUint32},
-      {"float", Scalar::kFloat32},  {"float32", Scalar::kFloat32}, {"double", Scalar::kFloat64},
-      {"float64", Scalar::kFloat64}};
-  for (const Name& name_of : kNames)
-    if (name_of.text == name) return name_of.scalar;
-  return std::nullopt;
-}
-std::size_t size_of(Scalar scalar) {
-  static constexpr std::size_t kSizes[] = {1, 1, 2, 2, 4, 4, 4, 8};
-  return kSizes[static_cast<int>(scalar)];
-}
-bool is_integer(Scalar scalar) { return scalar < Scalar::kFloat32; }
-
-// What a property is for: kX, kY, kZ and kCorners are kept, the rest is skipped.
-enum class Role { kX, kY, kZ, kCorners, kSkipped };
-
-struct Property {
-  std::string name;
-  Scalar value = Scalar::kFloat32;
-  std::optional<Scalar> list_size;  // a list if set
-  Role role = Role::kSkipped;
-};
-struct Element {
-  std::string name;
-  std::uint64_t count = 0;
-  std::vector<Property> properties;
-};
-enum class Encoding { kAscii, kLittle, kBig };
-struct PlyHeader {
-  Encoding encoding = Encoding::kAscii;
-  std::vector<Element> elements;
-  std::size_t size = 0;  // bytes, the line break after end_header included
-};
-
-class HeaderReader {
- public:
-  explicit HeaderReader(std::string_view bytes) : bytes_(bytes), scan_(bytes, Syntax::kPlain) {}
-
-  PlyHeader read() {
-    if (scan_.word() != "ply") scan_.fail(bytes_.data(), "the first line is not 'ply'");
-    find_line_break();
-    bool has_format = false;
-    for (;;) {
-      end_line();
-      if (!scan_.skip_blank()) scan_.fail_expected("end_header");
-      const std::string_view tag = scan_.word();
-      if (tag == "end_header") break;
-      if (tag == "format")
-        read_format(), has_format = true;
-      else if (tag == "element")
-        read_element();
-      else if (tag == "property")
-        read_property();
-      else if (tag == "comment" || tag == "obj_info")
-        scan_.skip_line();
-      else
-        scan_.fail(tag.data(), "unknown header line " + scan_.quoted(tag.data()));
-    }
-    if (!has_format) scan_.fail(scan_.position(), "the header has no format line");
-    finish();
-    return std::move(header_);
-  }
-
- private:
-  // The header's line break tells how many bytes end its last line; the data may start with any byte.
-  void find_line_break() {
-    const std::size_t at = static_cast<std::size_t>(scan_.position() - bytes_.data());
-    line_break_ = bytes_.substr(at, 2) == "\r\n" ? 2 : 1;
-  }
-  void end_line() {
-    if (scan_.skip_spaces()) scan_.fail(scan_.position(), "unexpected " + scan_.quoted(scan_.position()));
-  }
-  std::string_view word(const char* what) {
-    if (!scan_.skip_spaces()) scan_.fail_expected(what);
-    return scan_.word();
-  }
-
-  void read_format() {
-    const std::string_view name = word("a format");
-    if (name == "ascii")
-      header_.encoding = Encoding::kAscii;
-    else if (name == "binary_little_endian")
-      header_.encoding = Encoding::kLittle;
-    else if (name == "binary_big_endian")
-      header_.encoding = Encoding::kBig;
-    else
-      scan_.fail(name.data(), "unknown format " + scan_.quoted(name.data()));
-    word("the format's version");
-  }
-  void read_element() {
-    Element element;
-    element.name = std::string(word("an element's name"));
-    for (const Element& other : header_.elements)
-      if (other.name == element.name)
-        scan_.fail(scan_.position(), "element " + element.name + " is declared twice");
-    if (!scan_.skip_spaces()) scan_.fail_expected("an element's count");
-    const char* start = scan_.position();
-    const std::int64_t count = scan_.integer_here("an element's count");
-    if (count < 0 || static_cast<std::uint64_t>(count) > kMostElements)
-      scan_.fail(start, "an element's count cannot be " + std::to_string(count));
-    element.count = static_cast<std::uint64_t>(count);
-    header_.elements.push_back(std::move(element));
-  }
-  Scalar read_scalar() {
-    const std::string_view name = word("a type");
-    const auto scalar = scalar_of(name);
-    if (!scalar) scan_.fail(name.data(), "unknown type " + scan_.quoted(name.data()));
-    return *scalar;
-  }
-  void read_property() {
-    if (header_.elements.empty()) scan_.fail(scan_.position(), "a property before the first element");
-    Property property;
-    const std::string_view first = word("a type");
-    if (first == "list") {
-      property.list_size = read_scalar();
-      if (!is_integer(*property.list_size)) scan_.fail(scan_.position(), "a list's size is not an integer");
-    } else {
-      scan_.seek(first.data());
-    }
-    property.value = read_scalar();
-    property.name = std::string(word("a property's name"));
-    set_role(header_.elements.back(), property);
-    header_.elements.back().properties.push_back(std::move(property));
-  }
-  void set_role(const Element& element, Property& property) const {
-    static constexpr std::array<std::string_view, 3> kAxes{"x", "y", "z"};
-    if (element.name == "vertex" && !property.list_size)
-      for (int k = 0; k < 3; ++k)
-        if (property.name == kAxes[k]) property.role = static_cast<Role>(k);
-    if (element.name == "face" && property.list_size &&
-        (property.name == "vertex_indices" || property.name == "vertex_index")) {
-      property.role = Role::kCorners;
-      if (!is_integer(property.value)) scan_.fail(scan_.position(), "vertex indices are not integers");
-    }
-    for (const Property& other : element.properties)
-      if (property.role != Role::kSkipped && other.role == property.role)
-        scan_.fail(scan_.position(), "property " + property.name + " is declared twice");
-  }
-
-  void finish() {
-    const char* at = scan_.position();
-    header_.size = std::min(bytes_.size(), static_cast<std::size_t>(at - bytes_.data()) + line_break_);
-    for (const Element& element : header_.elements) {
-      int axes = 0, corners = 0;
-      for (const Property& property : element.properties) {
-        axes += property.role < Role::kCorners;
-        corners += property.role == Role::kCorners;
-      }
-      if (element.name == "vertex" && axes != 3) scan_.fail(at, "the vertices have no x, y and z");
-      if (element.name == "face" && corners != 1) scan_.fail(at, "the faces have no vertex_indices");
-    }
-  }
-
-  std::string_view bytes_;
-  TextScanner scan_;
-  PlyHeader header_;
-  std::size_t line_break_ = 1;
-};
 
 // The body's values in turn. Text: at least two bytes a value, and one byte may be missing at the end.
 class TextSource {
@@ -248,22 +78,33 @@ class BinarySource {
   ByteReader reader_;
 };
 
+struct PlyData {
+  PolygonSoup soup;
+  std::vector<double> radius;                      // one a point, or empty
+  std::vector<std::array<std::int64_t, 2>> edges;  // as read
+};
+
 template <class Source>
 class BodyReader {
  public:
   BodyReader(Source source, const PlyHeader& header) : source_(source), header_(header) {
-    for (const Element& element : header.elements)
+    for (const Element& element : header.elements) {
       if (element.name == "vertex") point_count_ = element.count;
+      for (const Property& property : element.properties) {
+        with_radii_ = with_radii_ || property.role == Role::kRadius;
+        with_edges_ = with_edges_ || property.role == Role::kStart;
+      }
+    }
   }
 
-  PolygonSoup read() {
+  PlyData read() {
     for (const Element& element : header_.elements) {
       if (element.properties.empty()) continue;  // takes no bytes, so its count bounds nothing
       check_count(element);
       reserve(element);
       for (std::uint64_t i = 0; i < element.count; ++i) read_item(element);
     }
-    return std::move(soup_);
+    return std::move(data_);
   }
 
  private:
@@ -281,24 +122,33 @@ class BodyReader {
     return text.substr(0, 24);
   }
   void reserve(const Element& element) {
-    if (element.name == "vertex") soup_.points.reserve(element.count);
+    if (element.name == "vertex") data_.soup.points.reserve(element.count);
     if (element.name == "face") {
-      soup_.begin.reserve(element.count + 1);
-      soup_.corners.reserve(3 * element.count);
+      data_.soup.begin.reserve(element.count + 1);
+      data_.soup.corners.reserve(3 * element.count);
     }
   }
 
   void read_item(const Element& element) {
-    Vector3 point;
+    double number[4] = {0, 0, 0, 0};
+    std::array<std::int64_t, 2> edge{};
     for (const Property& property : element.properties) {
-      if (property.role < Role::kCorners)
-        point[static_cast<int>(property.role)] = source_.number(property.value);
+      if (property.role <= Role::kRadius)
+        number[static_cast<int>(property.role)] = source_.number(property.value);
+      else if (property.role <= Role::kEnd)
+        edge[property.role == Role::kEnd] = source_.integer(property.value);
       else if (property.role == Role::kCorners)
         read_polygon(property);
+      else if (property.role == Role::kStrips)
+        read_strips(property);
       else
         source_.skip(property.value, property.list_size ? read_list_size(property) : 1);
     }
-    if (element.name == "vertex") soup_.points.push_back(point);
+    if (element.name == "vertex") {
+      data_.soup.points.emplace_back(number[0], number[1], number[2]);
+      if (with_radii_) data_.radius.push_back(number[3]);
+    }
+    if (element.name == "edge" && with_edges_) data_.edges.push_back(edge);
   }
   std::uint64_t read_list_size(const Property& property) {
     const std::int64_t size = source_.integer(*property.list_size);
@@ -309,31 +159,63 @@ class BodyReader {
   void read_polygon(const Property& property) {
     const std::uint64_t size = read_list_size(property);
     if (size == 0) source_.fail("a face has no corners");
-    if (soup_.corners.size() + size > kMostElements) source_.fail("there are too many corners");
+    if (data_.soup.corners.size() + size > kMostElements) source_.fail("there are too many corners");
+    for (std::uint64_t i = 0; i < size; ++i)
+      data_.soup.corners.push_back(checked_vertex(source_.integer(property.value)));
+    data_.soup.begin.push_back(static_cast<Index>(data_.soup.corners.size()));
+  }
+  // Strips one after another, -1 between them. Each further vertex makes a triangle with the two before it,
+  // every second one turned round; a vertex given twice in a row only turns the strip.
+  void read_strips(const Property& property) {
+    const std::uint64_t size = read_list_size(property);
+    if (data_.soup.corners.size() + 3 * size > kMostElements) source_.fail("there are too many corners");
+    std::array<Index, 2> last{kNone, kNone};
+    bool turned = false;
     for (std::uint64_t i = 0; i < size; ++i) {
-      const std::int64_t v = source_.integer(property.value);
-      if (v < 0 || static_cast<std::uint64_t>(v) >= point_count_)
-        source_.fail("vertex index " + std::to_string(v) + " is out of range, there are " +
-                     std::to_string(point_count_) + " vertices");
-      soup_.corners.push_back(static_cast<Index>(v));
+      const std::int64_t value = source_.integer(property.value);
+      if (value == -1) {
+        last = {kNone, kNone};
+        turned = false;
+        continue;
+      }
+      const Index v = checked_vertex(value);
+      if (last[0] != kNone) {
+        if (last[0] != last[1] && v != last[0] && v != last[1])
+          data_.soup.add_triangle(last[turned], last[!turned], v);
+        turned = !turned;
+      }
+      last = {last[1], v};
     }
-    soup_.begin.push_back(static_cast<Index>(soup_.corners.size()));
+  }
+  Index checked_vertex(std::int64_t v) {
+    if (v < 0 || static_cast<std::uint64_t>(v) >= point_count_)
+      source_.fail("vertex index " + std::to_string(v) + " is out of range, there are " +
+                   std::to_string(point_count_) + " vertices");
+    return static_cast<Index>(v);
   }
 
   Source source_;
   const PlyHeader& header_;
   std::uint64_t point_count_ = 0;
-  PolygonSoup soup_;
+  bool with_radii_ = false, with_edges_ = false;
+  PlyData data_;
 };
 
-}  // namespace
-
-PolygonSoup parse_ply(std::string_view bytes) {
-  const PlyHeader header = HeaderReader(bytes).read();
+PlyData parse(std::string_view bytes, PlyContent content) {
+  const PlyHeader header = read_ply_header(bytes, content);
   if (header.encoding == Encoding::kAscii)
     return BodyReader<TextSource>(TextSource(bytes, header.size), header).read();
   const ByteOrder order = header.encoding == Encoding::kBig ? ByteOrder::kBig : ByteOrder::kLittle;
   return BodyReader<BinarySource>(BinarySource(bytes, header.size, order), header).read();
+}
+
+}  // namespace
+
+PolygonSoup parse_ply(std::string_view bytes) { return parse(bytes, PlyContent::kMesh).soup; }
+
+PlyGraph parse_ply_graph(std::string_view bytes) {
+  PlyData data = parse(bytes, PlyContent::kSkeleton);
+  return {std::move(data.soup.points), std::move(data.radius), std::move(data.edges)};
 }
 
 }  // namespace mspskel::detail

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "mesh_parsers.h"
 #include "mspskel/base/error.h"
 #include "read_bytes.h"
 #include "text_scanner.h"
@@ -98,6 +99,23 @@ CurveSkeleton parse_obj(std::string_view bytes) {
   return skeleton;
 }
 
+CurveSkeleton parse_ply_skeleton(std::string_view bytes) {
+  const detail::PlyGraph graph = detail::parse_ply_graph(bytes);
+  CurveSkeleton skeleton;
+  skeleton.nodes.resize(graph.points.size());
+  for (std::size_t v = 0; v < graph.points.size(); ++v) {
+    skeleton.nodes[v].position = graph.points[v];
+    if (!graph.radius.empty()) skeleton.nodes[v].radius = graph.radius[v];
+  }
+  const auto count = static_cast<std::int64_t>(graph.points.size());
+  for (std::size_t e = 0; e < graph.edges.size(); ++e)
+    add_edge(skeleton, graph.edges[e][0], graph.edges[e][1], count, [e](const std::string& message) {
+      throw ReadError("edge " + std::to_string(e) + ": " + message);
+    });
+  sort_edges(skeleton);
+  return skeleton;
+}
+
 using Json = nlohmann::json;
 
 double number_of(const Json& value, const char* what) {
@@ -171,17 +189,20 @@ CurveSkeleton read_skeleton(std::string_view bytes, SkeletonFormat format) {
       return parse_skel(bytes);
     case SkeletonFormat::kObj:
       return parse_obj(bytes);
+    case SkeletonFormat::kPly:
+      return parse_ply_skeleton(bytes);
     case SkeletonFormat::kJson:
       return parse_json(bytes);
     default:
-      throw UsageError("skeletons are read from .skel .obj .json only");
+      throw UsageError("skeletons are read from .skel .obj .ply .json only");
   }
 }
 
 CurveSkeleton read_skeleton(const std::string& path) {
   const SkeletonFormat format = skeleton_format_of(path);
-  if (format != SkeletonFormat::kSkel && format != SkeletonFormat::kObj && format != SkeletonFormat::kJson)
-    throw UsageError("cannot read " + path + ": skeletons are read from .skel .obj .json only");
+  if (format != SkeletonFormat::kSkel && format != SkeletonFormat::kObj && format != SkeletonFormat::kPly &&
+      format != SkeletonFormat::kJson)
+    throw UsageError("cannot read " + path + ": skeletons are read from .skel .obj .ply .json only");
   const std::string bytes = detail::read_bytes(path);
   try {
     return read_skeleton(bytes, format);

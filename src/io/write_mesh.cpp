@@ -140,6 +140,9 @@ std::string format_mesh(const PolygonSoup& soup, MeshFormat format, const WriteM
   if (!options.vertex_colors.empty() && options.vertex_colors.size() != soup.points.size())
     throw UsageError("there are " + std::to_string(options.vertex_colors.size()) + " colours for " +
                      std::to_string(soup.points.size()) + " vertices");
+  for (std::size_t v = 0; v < soup.points.size(); ++v)
+    if (!soup.points[v].allFinite())
+      throw MeshError("vertex " + std::to_string(v) + " of the mesh to write is not finite");
   MeshText text(soup, options);
   switch (format) {
     case MeshFormat::kOff:

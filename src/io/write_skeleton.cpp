@@ -1,5 +1,6 @@
 #include "mspskel/io/write_skeleton.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "append_text.h"
@@ -224,7 +225,17 @@ SkeletonFormat skeleton_format_of(const std::string& path) {
   throw UsageError("cannot tell the skeleton format of " + path + ": known extensions are" + known);
 }
 
+void refuse_not_finite(const CurveSkeleton& skeleton) {
+  for (std::size_t v = 0; v < skeleton.nodes.size(); ++v) {
+    const SkeletonNode& node = skeleton.nodes[v];
+    if (!node.position.allFinite() || !std::isfinite(node.radius) || !std::isfinite(node.area) ||
+        !std::isfinite(node.perimeter) || !std::isfinite(node.slice_error))
+      throw NoSkeletonError("node " + std::to_string(v) + " of the skeleton has a number that is not finite");
+  }
+}
+
 std::string format_skeleton(const CurveSkeleton& skeleton, SkeletonFormat format, const std::string& report) {
+  refuse_not_finite(skeleton);
   switch (format) {
     case SkeletonFormat::kSkel:
       return format_skel(skeleton);

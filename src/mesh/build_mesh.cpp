@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "defects.h"
 #include "mspskel/base/error.h"
+#include "mspskel/mesh/detail/unit_scale.h"
 #include "oriented_surface.h"
 #include "triangulate.h"
 
@@ -182,16 +184,28 @@ void add_warnings(BuiltMesh& built, Index flat_components) {
   warn(built.degenerate_faces, "face has no area", "faces have no area");
 }
 
+// The soup at a size at which its areas and volumes are numbers; nothing if it has that.
+std::optional<PolygonSoup> at_measurable_size(const PolygonSoup& soup) {
+  constexpr double kExtreme = 1e60;  // products of four lengths are numbers up to here
+  const double scale = detail::unit_scale(soup.points);
+  if (scale < kExtreme && scale > 1 / kExtreme) return std::nullopt;
+  PolygonSoup scaled = soup;
+  for (Vector3& p : scaled.points) p *= scale;
+  return scaled;
+}
+
 }  // namespace
 
 BuiltMesh build_mesh_with_report(const PolygonSoup& soup) {
   check_soup(soup);
   const auto vertices = static_cast<Index>(soup.points.size());
-  const detail::Triangulation triangulation = detail::triangulate(soup);
+  const std::optional<PolygonSoup> scaled = at_measurable_size(soup);
+  const PolygonSoup& measured = scaled ? *scaled : soup;
+  const detail::Triangulation triangulation = detail::triangulate(measured);
   OrientedSurface surface = detail::orient_surface(vertices, triangulation);
 
   BuiltMesh built;
-  const InsideOut inside_out(soup.points, surface);
+  const InsideOut inside_out(measured.points, surface);
   const std::vector<char> turn_component = inside_out.find(built.nested_components);
   built.flipped_components = static_cast<Index>(std::count(turn_component.begin(), turn_component.end(), 1));
   if (built.flipped_components > 0) {

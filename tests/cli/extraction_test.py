@@ -108,6 +108,26 @@ class Report(ProgramTest):
         self.assertIn(report["checks"]["topology"], ["proved", "kept"])
         self.assertIsInstance(report["warnings"], list)
 
+    def test_peak_memory_is_not_that_of_the_parent(self):
+        mesh = self.sample()
+        own = self.report(mesh, "a.skel")["peak_memory_bytes"]
+        ballast = b"\1" * (own + 300_000_000)  # a child is said to have had what its parent has
+        self.assertLess(self.report(mesh, "a.skel")["peak_memory_bytes"], len(ballast) - 100_000_000)
+
+    def test_spacing_of_the_nodes_changes_nothing_else(self):
+        (self.folder / "q.off").write_bytes((SOURCE / "data" / "quadruped.off").read_bytes())
+        reports = {}
+        for step in [0.0005, 0.001, 0.008, 0.1, 0.26, 0.5]:
+            reports[step] = self.report("q.off", "a.skel", "--step", step)
+            # Short cuts stay off the walls.
+            self.assertEqual(reports[step]["checks"]["topology"], "proved")
+        shapes = {(r["skeleton"]["leaves"], r["skeleton"]["cycles"], r["counts"]["slices"]) for r in reports.values()}
+        self.assertEqual(len(shapes), 1)
+        for one, other in [(0.0005, 0.001), (0.001, 0.008)]:
+            lengths = [reports[step]["skeleton"]["length"] for step in (one, other)]
+            self.assertAlmostEqual(lengths[0] / lengths[1], 1, delta=0.01)
+            self.assertGreater(reports[one]["skeleton"]["nodes"], 1.8 * reports[other]["skeleton"]["nodes"])
+
     def test_every_option_of_the_help_is_reported(self):
         options = self.report(self.sample(), "a.skel")["options"]
         text = self.succeed("--help").decode()

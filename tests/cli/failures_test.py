@@ -85,7 +85,8 @@ class Ending(ProgramTest):
     def test_time_limit(self):
         mesh = self.sample("torus", 20000)
         start = time.monotonic()
-        message = self.fail_with(CANCELLED, mesh, "a.skel", *self.SLOW, "--time-limit", "0.3", "--report", "r.json")
+        message = self.fail_with(CANCELLED, mesh, "a.skel", *self.SLOW, "--time-limit", "0.3", "--report", "r.json",
+                                 "--stages", "s")
         self.assertIn("time limit", message)
         self.assertLess(time.monotonic() - start, 30)
 
@@ -93,9 +94,9 @@ class Ending(ProgramTest):
         mesh = self.sample("torus", 20000)
         self.write("a.skel", "older")
         before = self.files()
-        for number in [signal.SIGINT, signal.SIGTERM]:
-            process = subprocess.Popen([PROGRAM, mesh, "a.skel", *self.SLOW], cwd=self.folder,
-                                       stderr=subprocess.PIPE)
+        for number in [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]:
+            process = subprocess.Popen([PROGRAM, mesh, "a.skel", *self.SLOW, "--report", "r.json", "--stages", "s"],
+                                       cwd=self.folder, stderr=subprocess.PIPE)
             time.sleep(0.5)
             process.send_signal(number)
             _, message = process.communicate(timeout=60)

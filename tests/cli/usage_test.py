@@ -46,6 +46,14 @@ class Usage(ProgramTest):
         self.write("check", "no mesh at all\n")
         self.assertIn("./check", self.fail_with(READ, "./check", "a.skel"))
 
+    def test_words_after_two_dashes_are_arguments(self):
+        self.write("-q", "no mesh at all\n")
+        self.assertIn("-q", self.fail_with(READ, "--", "-q", "a.skel"))
+        self.assertIn("-q", self.fail_with(READ, "--threads", "1", "--", "-q"))
+        self.assertIn("check", self.fail_with(READ, "--", "check", "a.skel"))
+        self.assertIn("absent", self.fail_with(READ, "check", "--", "absent.off", "a.skel"))
+        self.assertIn("too many", self.fail_with(USAGE, "check", "--", "a", "b", "--json"))
+
     def test_unknown_sample(self):
         self.assertIn("torus", self.fail_with(USAGE, "sample", "toros"))
 

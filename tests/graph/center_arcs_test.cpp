@@ -4,7 +4,10 @@
 #include <catch2/catch.hpp>
 
 #include "graph/arc_graphs.h"
+#include "mspskel/graph/detail/arc_points.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
+#include "mspskel/mesh/build_mesh.h"
+#include "mspskel/samples/samples.h"
 #include "mspskel/samples/skin_graph.h"
 
 using namespace mspskel;
@@ -161,4 +164,36 @@ TEST_CASE("Centring can be cancelled, and its options are checked") {
   CenteringOptions wrong;
   wrong.step = 0;
   CHECK_THROWS_AS(center_arcs(graph, solid.hierarchy, wrong), UsageError);
+}
+
+TEST_CASE("A piece that moves as a whole does not leave the solid") {
+  const Solid solid(tube(1, 12, 24, 24));
+  const ArcGraph graph = arc_along_tube(solid, [](double z) { return Vector3(0.2, 0, z); });
+  // Without an edge across the surface on the way: only the places tell.
+  for (const double way : {0.5, 3.0, 100.0}) {
+    detail::ArcPoints points(graph);
+    std::vector<Vector3> goal;
+    for (const Vector3& x : points.x) goal.push_back(x + Vector3(way, way, 0));
+    detail::move_inside(points, solid.hierarchy, goal);
+    for (const Vector3& x : points.x) CHECK(solid.hierarchy.inside(x));
+  }
+}
+
+TEST_CASE("Arcs stay inside with any weight of straight arcs") {
+  SampleOptions small;
+  small.resolution = 120;
+  const Solid solid(build_mesh(make_sample("torus", small)));
+  for (const double smoothness : {0.0, 1e3, 1e6}) {
+    ArcGraph graph;
+    std::vector<Vector3> ring;
+    for (int i = 0; i <= 40; ++i)
+      ring.push_back(solid.at(std::cos(2 * kPi * (i % 40) / 40), std::sin(2 * kPi * (i % 40) / 40), 0.1));
+    const Index hub = graph.add_hub(ring.front());
+    graph.arcs.push_back({{hub, hub}, ring, true});
+    CenteringOptions options;
+    options.smoothness = smoothness;
+    center_arcs(graph, solid.hierarchy, options);
+    CHECK(crossings(graph, solid.hierarchy) == 0);
+    for (const Vector3& x : graph.arcs[0].points) CHECK(solid.hierarchy.inside(x));
+  }
 }

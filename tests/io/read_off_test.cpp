@@ -38,6 +38,14 @@ TEST_CASE("OFF layout: line breaks of every kind, comments, wrapped lines, blank
   check_tetrahedron(off(text.substr(0, text.size() - 1)));
 }
 
+TEST_CASE("OFF counts: the number of edges may be absent") {
+  check_tetrahedron(off("OFF\n4 4\n" + kPoints + kFaces));
+  check_tetrahedron(off("OFF 4 4 # c\n# c\n\n" + kPoints + kFaces));
+  check_tetrahedron(off("4 4\n" + kPoints + kFaces));
+  check_tetrahedron(off("COFF\n4 4\n" + replace_all(kPoints, "\n", " 1 0 0 1\n") + kFaces));
+  check_tetrahedron(off("OFF\n4 4\n6\n" + kPoints + kFaces));  // on a line of its own
+}
+
 TEST_CASE("OFF numbers: signs, exponents, fractions without a digit before the point, tiny values") {
   const PolygonSoup soup = off("OFF 1 0 0\n+1.5e0 -.25 1e-400");
   CHECK(soup.points[0] == Vector3(1.5, -0.25, 0));
@@ -55,6 +63,9 @@ TEST_CASE("OFF prefixes: colours, normals, texture coordinates, a fourth coordin
   check_tetrahedron(off("noff\n4 4 0\n" + points(" 0 0 1") + kFaces));
   check_tetrahedron(off("STOFF\n4 4 0\n" + points(" 0.5 0.5") + kFaces));
   check_tetrahedron(off("STCNOFF\n4 4 0\n" + points(" 0 0 1 1 1 1 1 0.5 0.5") + kFaces));
+  for (const std::string keyword : {"NCOFF", "CNOFF", "ncoff"})
+    check_tetrahedron(off(keyword + "\n4 4 0\n" + points(" 0 0 1 0.1 0.2 0.3 1") + kFaces));
+  check_tetrahedron(off("NSTOFF\n4 4 0\n" + points(" 0 0 1 0.5 0.5") + kFaces));
   check_tetrahedron(
       off("STCNOFF\n4 4 0\n" + replace_all(points(" 0 0 1 1 1 1 1 0.5 0.5"), " ", "\n") + kFaces));
   CHECK(off("4OFF 1 0 0  2 4 6 2").points[0] == Vector3(1, 2, 3));

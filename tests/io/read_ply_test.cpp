@@ -185,3 +185,20 @@ TEST_CASE("PLY body defects are named with their line or byte") {
                   "2000000000 elements");
   }
 }
+
+TEST_CASE("PLY triangle strips: every second triangle turned round, -1 between strips") {
+  const std::string start = kStart + kVertexHeader + "element tristrips 1\nproperty list int int ";
+  const auto corners = [&](const std::string& strips) {
+    return ply(start + "vertex_indices\nend_header\n" + kPoints + strips).corners;
+  };
+  // 0 2 1 and 0 1 3 from one strip of four, the other two alone.
+  const std::string strips = "12  2 0 1 3  -1  1 2 3  -1  2 0 3";
+  CHECK(corners(strips) == std::vector<Index>{2, 0, 1, 1, 0, 3, 1, 2, 3, 2, 0, 3});
+  CHECK(corners("4 -1 0 1 -1").empty());
+  CHECK(corners("5 0 1 1 2 3") == std::vector<Index>{1, 2, 3});
+  CHECK(ply(start + "vertex_index\nend_header\n" + kPoints + strips).polygon_count() == 4);
+  check_refused(start + "vertex_indices\nend_header\n" + kPoints + "3 0 1 4\n", "line 14", "vertex index 4");
+  check_refused(start + "vertex_indices\nend_header\n" + kPoints + "3 0 1 -2\n", "line 14",
+                "vertex index -2");
+  check_refused(start + "corners\nend_header\n" + kPoints + strips, "line", "triangle strips");
+}

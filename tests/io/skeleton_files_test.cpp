@@ -1,9 +1,11 @@
 // Skeletons read back exactly from the formats that are read, and the others hold what their readers expect.
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "io/temporary_folder.h"
+#include "io/tetrahedron_text.h"
 #include "mspskel/base/error.h"
 #include "mspskel/io/read_skeleton.h"
 #include "mspskel/io/write_skeleton.h"
@@ -55,7 +57,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 TEST_CASE("skeletons go through files and back") {
   const TemporaryFolder folder;
   const CurveSkeleton skeleton = example();
-  for (const char* name : {"a.skel", "a.obj", "a.json", "B.SKEL"}) {
+  for (const char* name : {"a.skel", "a.obj", "a.ply", "a.json", "B.SKEL"}) {
     write_skeleton(folder.path(name), skeleton, R"({"seconds": 1.5})");
     check_graph(read_skeleton(folder.path(name)), skeleton, std::string(name) != "a.obj");
   }
@@ -188,6 +190,14 @@ TEST_CASE("malformed skeletons are refused with their line") {
                 "finite number");
   check_refused(SkeletonFormat::kJson, R"({"nodes": [], "edges": [{"source": 0, "target": 1}]})",
                 "out of range");
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n";
+  const std::string edges = "element edge 1\nproperty int vertex1\nproperty int vertex2\nend_header\n";
+  check_refused(SkeletonFormat::kPly, ply + edges + "0 0 0\n0 0 1\n0 2\n", "edge 0: node index 2");
+  check_refused(SkeletonFormat::kPly, ply + edges + "0 0 0\n0 0 1\n1 1\n", "edge 0: node 1 has an edge to");
+  check_refused(SkeletonFormat::kPly, ply + edges + "0 0 0\n0 0 nan\n0 1\n", "line 12");
+  check_refused(SkeletonFormat::kPly, ply + "element edge 1\nproperty int vertex1\nend_header\n",
+                "no vertex1 and vertex2");
   const TemporaryFolder folder;
   CHECK_THROWS_WITH(read_skeleton(folder.write("a.skel", "x")), Contains("a.skel: line 1"));
 }
@@ -196,4 +206,40 @@ TEST_CASE(".obj polylines and negative indices; other records are skipped") {
   const std::string text = "# c\nv 0 0 0\nv 1 0 0 # c\no x\nv 2 0 0\nl 1 2 3\nl -1 -2\nf 1 2 3\n";
   const CurveSkeleton skeleton = read_skeleton(std::string_view(text), SkeletonFormat::kObj);
   CHECK(skeleton.edges == std::vector<std::array<Index, 2>>{{0, 1}, {1, 2}});
+}
+
+TEST_CASE("binary .ply skeletons; radii may be absent") {
+  for (const bool radius : {false, true}) {
+    test::Bytes bytes(false);
+    for (const float x : {0.0f, 1.0f, 0.5f}) {
+      bytes.add(x).add(2.0f).add(3.0f);
+      if (radius) bytes.add(x + 1);
+    }
+    bytes.add(1).add(0).add(1).add(2);
+    const CurveSkeleton skeleton = read_skeleton(
+        "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+        "property float z\n" +
+            std::string(radius ? "property float radius\n" : "") +
+            "element edge 2\nproperty int vertex1\nproperty int vertex2\nend_header\n" + bytes.text,
+        SkeletonFormat::kPly);
+    CHECK(skeleton.edges == std::vector<std::array<Index, 2>>{{0, 1}, {1, 2}});
+    CHECK(skeleton.nodes.at(2).position == Vector3(0.5, 2, 3));
+    CHECK(skeleton.nodes.at(1).radius == (radius ? 2 : SkeletonNode().radius));
+  }
+}
+
+TEST_CASE("a number that is not finite is not written, in any format") {
+  for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL})
+    for (int field = 0; field < 5; ++field) {
+      CurveSkeleton skeleton = example();
+      SkeletonNode& node = skeleton.nodes[4];
+      double* const fields[] = {&node.position[1], &node.radius, &node.area, &node.perimeter,
+                                &node.slice_error};
+      *fields[field] = bad;
+      for (const auto format :
+           {SkeletonFormat::kSkel, SkeletonFormat::kObj, SkeletonFormat::kPly, SkeletonFormat::kJson,
+            SkeletonFormat::kSwc, SkeletonFormat::kVtp, SkeletonFormat::kGraphml, SkeletonFormat::kPolylines})
+        CHECK_THROWS_WITH(format_skeleton(skeleton, format), Contains("node 4"));
+      CHECK_THROWS_AS(format_skeleton(skeleton, SkeletonFormat::kSkel), NoSkeletonError);
+    }
 }

@@ -110,6 +110,28 @@ TEST_CASE("files are replaced as a whole") {
   write_file_atomically(folder.path("link"), "through");
   CHECK(folder.read("a.txt") == "through");
   CHECK(std::filesystem::is_symlink(folder.path("link")));
+  // The link's target need not exist, and is found from the link's own folder.
+  std::filesystem::create_directory(folder.path("sub"));
+  std::filesystem::create_symlink("../new.txt", folder.path("sub/to_new"));
+  std::filesystem::create_symlink("sub/to_new", folder.path("to_link"));
+  write_file_atomically(folder.path("to_link"), "new");
+  CHECK(folder.read("new.txt") == "new");
+  CHECK(std::filesystem::is_symlink(folder.path("to_link")));
+  CHECK(std::filesystem::is_symlink(folder.path("sub/to_new")));
+  std::filesystem::create_symlink("round", folder.path("round"));
+  CHECK_THROWS_AS(write_file_atomically(folder.path("round"), "x"), WriteError);
+}
+
+TEST_CASE("a file that is replaced keeps its mode bits") {
+  namespace fs = std::filesystem;
+  const TemporaryFolder folder;
+  const std::string path = folder.write("a.txt", "before");
+  for (const auto mode : {fs::perms::owner_read | fs::perms::owner_write,
+                          fs::perms::owner_all | fs::perms::group_read | fs::perms::others_exec}) {
+    fs::permissions(path, mode);
+    write_file_atomically(path, "after");
+    CHECK(fs::status(path).permissions() == mode);
+  }
 }
 
 TEST_CASE("a file that cannot be written is named with the reason, and nothing is left") {
@@ -125,5 +147,15 @@ TEST_CASE("a file that cannot be written is named with the reason, and nothing i
   if (std::filesystem::exists("/dev/null")) {
     write_file_atomically("/dev/null", "x");
     CHECK_FALSE(std::filesystem::is_regular_file("/dev/null"));
+  }
+}
+
+TEST_CASE("a point that is not finite is not written, in any format") {
+  PolygonSoup soup;
+  soup.points = {{0, 0, 0}, {1, 0, 0}, {0, std::nan(""), 0}};
+  soup.add_triangle(0, 1, 2);
+  for (const MeshFormat format : {MeshFormat::kOff, MeshFormat::kObj, MeshFormat::kPly}) {
+    CHECK_THROWS_AS(format_mesh(soup, format), MeshError);
+    CHECK_THROWS_WITH(format_mesh(soup, format), Contains("vertex 2"));
   }
 }

@@ -241,3 +241,17 @@ TEST_CASE("a closed surface with one side only is refused") {
                           {1, 2, 4}, {2, 3, 5}, {3, 4, 1}, {4, 5, 2}, {5, 1, 3}};
   CHECK_THROWS_WITH(build_mesh(soup_of(points, polygons)), Contains("only one side"));
 }
+
+TEST_CASE("a mesh of any size is turned and reported like one of size 1") {
+  for (const double scale : {1e-300, 1e-160, 1e-80, 1.0, 1e80, 1e150}) {
+    PolygonSoup soup;
+    soup.points = {{0, 0, 0}, {scale, 0, 0}, {0, scale, 0}, {0, 0, scale}};
+    for (const auto& f : {std::array<Index, 3>{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}})
+      soup.add_triangle(f[0], f[1], f[2]);  // inside out
+    const BuiltMesh built = build_mesh_with_report(soup);
+    INFO(scale);
+    CHECK(built.flipped_components == 1);
+    CHECK(built.degenerate_faces == 0);
+    CHECK(to_vector3(built.mesh.point(OpenMesh::VertexHandle(1))) == soup.points[1]);
+  }
+}

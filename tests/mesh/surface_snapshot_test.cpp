@@ -40,3 +40,19 @@ TEST_CASE("an open mesh is refused and the edge named") {
   mesh.add_face(a, b, c);
   CHECK_THROWS_AS(make_snapshot(mesh), MeshError);
 }
+
+TEST_CASE("a surface of any size has the normalised positions of one of size 1") {
+  const SurfaceSnapshot one = make_snapshot(tetrahedron());
+  for (const int exponent : {-900, -531, -200, 200, 480}) {
+    DefaultMesh mesh = tetrahedron();
+    const double scale = std::ldexp(1.0, exponent);
+    for (const auto v : mesh.vertices()) mesh.set_point(v, mesh.point(v) * scale);
+    const SurfaceSnapshot s = make_snapshot(mesh);
+    CHECK(s.position == one.position);
+    CHECK(s.frame.scale == one.frame.scale * scale);
+    CHECK(s.frame.origin == one.frame.origin * scale);
+  }
+  DefaultMesh mesh = tetrahedron();
+  for (const auto v : mesh.vertices()) mesh.set_point(v, mesh.point(v) * 1e160);
+  CHECK_THROWS_WITH(make_snapshot(mesh), Catch::Contains("too large"));
+}

@@ -9,12 +9,13 @@ namespace mspskel {
 
 struct CoherenceOptions {
   bool enabled = true;
-  double strength =
-      2.0;  // α: weight of the neighbours against a point's own confidence of at most 1; 0 to 1000
+  // α: weight of the neighbours against a point's own confidence of at most 1; 0 to 10. Much more draws all
+  // points of a ring to its middle, which is outside.
+  double strength = 2.0;
 };
 
 inline void validate(const CoherenceOptions& o) {
-  if (!(o.strength >= 0 && o.strength <= 1000)) throw UsageError("coherence strength must be from 0 to 1000");
+  if (!(o.strength >= 0 && o.strength <= 10)) throw UsageError("coherence strength must be from 0 to 10");
 }
 
 // Replaces the skeletal points s by the solution x of (C + αL) x = C s, with C the diagonal of confidences

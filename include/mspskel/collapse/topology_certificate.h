@@ -29,7 +29,7 @@ struct PolylineGraph {
 enum class TopologyVerdict {
   kProved,  // every condition holds
   kKept,    // b0 and b1 are right, but something stands in the way of the proof
-  kFailed,  // b0 or b1 is wrong, or the proof's conditions hold and the cycles depend on each other
+  kFailed,  // b0 or b1 is wrong, or the cycles depend on each other
 };
 
 // "proved", "kept", "failed".
@@ -65,6 +65,8 @@ struct TopologyCertificate {
   // that are not inside from end to end.
   double inside = 0.0;
   Index edges_not_inside = 0;
+  std::optional<Vector3> outside_at;  // a place outside, normalised units; of edges that only graze the
+                                      // surface, none may be found
 };
 
 // The component that each node stands for, from the map of the surface's vertices to nodes (kNone entries are

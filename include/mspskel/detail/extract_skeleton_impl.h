@@ -1,14 +1,17 @@
 #pragma once
 
 #include <chrono>
+#include <memory>
 #include <optional>
 
+#include "mspskel/base/counted.h"
 #include "mspskel/base/linkage.h"
 #include "mspskel/detail/join_components.h"
 #include "mspskel/graph/collapsed_arcs.h"
 #include "mspskel/graph/limit_nodes.h"
 #include "mspskel/graph/make_curve_skeleton.h"
 #include "mspskel/graph/reach_digits.h"
+#include "mspskel/graph/space_nodes.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/mesh/component_solids.h"
 #include "mspskel/mesh/orient_shells.h"
@@ -157,14 +160,16 @@ inline VolumeCocycles cocycles_of_input(const ExtractResult& result, const Extra
 
 inline void collect_warnings(ExtractResult& result) {
   if (result.skeleton_mesh.without_slice > 0)
-    result.warnings.push_back(std::to_string(result.skeleton_mesh.without_slice) +
-                              " vertices have no valid slice; their neighbours' skeletal points stand in");
+    result.warnings.push_back("no valid slice at " +
+                              counted(result.skeleton_mesh.without_slice, "vertex", "vertices") +
+                              "; the neighbours' skeletal points stand in");
   if (result.refinement.routing.unroutable > 0)
-    result.warnings.push_back(std::to_string(result.refinement.routing.unroutable) +
-                              " stretches of the skeleton leave the solid and no way inside was found");
+    result.warnings.push_back("no way inside was found for " +
+                              counted(result.refinement.routing.unroutable, "stretch", "stretches") +
+                              " of the skeleton outside the solid");
   if (result.restoration.abandoned > 0)
-    result.warnings.push_back(std::to_string(result.restoration.abandoned) +
-                              " cycles of the skeleton miss their handle and no way round it was found");
+    result.warnings.push_back("no way round the handle that it misses was found for " +
+                              counted(result.restoration.abandoned, "cycle") + " of the skeleton");
 }
 
 }  // namespace detail
@@ -221,7 +226,7 @@ inline ExtractResult extract_component(SurfaceSnapshot surface, const SurfaceSna
   const std::optional<SurfaceSnapshot> oriented = orient_shells_outward(result.surface);
   const SurfaceSnapshot& shells = oriented ? *oriented : result.surface;
   LimbSurface limbs;
-  std::optional<BoundingVolumeHierarchy> hierarchy;
+  std::shared_ptr<const BoundingVolumeHierarchy> hierarchy;
   run_beside(
       options.execution,
       [&] {
@@ -229,7 +234,11 @@ inline ExtractResult extract_component(SurfaceSnapshot surface, const SurfaceSna
         result.coarse = coarsen_in_steps(shells, options, limbs);
         clock.lap("coarsening");
       },
-      [&] { hierarchy.emplace(bounds != nullptr ? *bounds : result.surface); });
+      [&] {
+        hierarchy =
+            std::make_shared<const BoundingVolumeHierarchy>(bounds != nullptr ? *bounds : result.surface);
+      });
+  if (bounds == nullptr) result.solid = hierarchy;
   const BoundingVolumeHierarchy& solid = *hierarchy;
   clock.lap("hierarchy");
   const SurfaceSnapshot& working = result.coarse ? result.coarse->surface : shells;
@@ -262,10 +271,11 @@ inline ExtractResult extract_component(SurfaceSnapshot surface, const SurfaceSna
     // Last, and on the input too: centring may pull an arc off a handle that is small beside its step.
     result.restoration = restore_cycles(arcs, result.surface, solid, result.cocycles);
     if (result.restoration.restored > 0) subdivide(arcs, 1.25 * options.refinement.centering.step);
+    if (options.refinement.node_spacing) space_nodes(arcs, solid, *options.refinement.node_spacing);
     if (options.refinement.nodes > 0) {
       const Index left = limit_nodes(arcs, solid, options.refinement.nodes);
       if (left > options.refinement.nodes)
-        result.warnings.push_back("the skeleton keeps " + std::to_string(left) + " nodes: with " +
+        result.warnings.push_back("the skeleton keeps " + counted(left, "node") + ": with " +
                                   std::to_string(options.refinement.nodes) + " it would leave the solid");
     }
     clock.lap("arcs");

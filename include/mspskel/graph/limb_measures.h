@@ -14,7 +14,7 @@ inline constexpr double kEnd = 0.75;
 }  // namespace detail
 
 struct LimbOptions {
-  // The least slenderness of a limb, 0 to 100; larger keeps fewer features. It is 1 for the corner of a cube
+  // The least slenderness of a limb, 0 to 1000; larger keeps fewer features. It is 1 for the corner of a cube
   // as its centre sees it.
   double slenderness = 1.25;
   // As a share of the model's extent, 0 to 1. Limbs are some times deeper; below it everything is noise.
@@ -22,8 +22,8 @@ struct LimbOptions {
 };
 
 inline void validate(const LimbOptions& o) {
-  if (!(o.slenderness >= 0 && o.slenderness <= 100))
-    throw UsageError("slenderness of limbs must be from 0 to 100");
+  if (!(o.slenderness >= 0 && o.slenderness <= 1000))
+    throw UsageError("slenderness of limbs must be from 0 to 1000");
   if (!(o.smallest >= 0 && o.smallest <= 1))
     throw UsageError("smallest feature must be from 0 to 1 of the extent");
 }

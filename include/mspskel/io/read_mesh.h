@@ -14,15 +14,15 @@ enum class MeshFormat { kOff, kObj, kPly, kStl };
 // Reads a mesh file whole; "-" is standard input. The format is that of the extension (.off .obj .ply .stl,
 // any case); another or no extension leaves it to the content.
 //   OFF  with or without its keyword, in any case; ST, C, N, 4 (x/w, y/w, z/w) and n (of dimension 3) before
-//   it; text and BINARY;
-//        face colours up to the end of the line
+//        it, in any order; text and BINARY; the number of edges may be absent; face colours up to the end of
+//        the line
 //   OBJ  v (what follows x y z is ignored) and f (i, i/t, i//n, i/t/n, negative too); lines may continue
-//   after a backslash;
-//        every other record is skipped
-//   PLY  ascii and binary of both byte orders; elements vertex (x y z) and face (vertex_indices or
-//   vertex_index); the rest is skipped STL  text and binary, told apart by size before the word "solid";
-//   corners with equal coordinates (-0 equals 0) become one point, in
-//        order of first appearance, and triangles that lose a corner that way are left out
+//        after a backslash; every other record is skipped
+//   PLY  ascii and binary of both byte orders; elements vertex (x y z), face and tristrips (strips of
+//        triangles, -1 between them), each with vertex_indices or vertex_index; the rest is skipped
+//   STL  text and binary, told apart by size before the word "solid"; corners with equal coordinates (-0
+//        equals 0) become one point, in order of first appearance, and triangles that lose a corner that way
+//        are left out
 // Points keep the file's order. Throws ReadError that names the path and the line (in binary data the byte)
 // for what cannot be read: a missing, empty or unreadable file, a malformed record, an index out of range, a
 // coordinate that is not finite, more data announced than the file holds. Cost: linear; about 0.1 µs a face

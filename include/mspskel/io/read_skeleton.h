@@ -9,11 +9,11 @@
 
 namespace mspskel {
 
-// Reads .skel, .obj (v and l) and .json, by extension; "-" is .skel from standard input. Positions and edges,
-// radii from .skel and .json, the surface map and the other node values from .json. Edges come out sorted,
-// each once. Throws ReadError that names the path and, for text formats, the line: a malformed file, an index
-// out of range, an edge from a node to itself, a number that is not finite. Throws UsageError for another
-// extension.
+// Reads .skel, .obj (v and l), .ply (text or binary; vertices with x, y, z and perhaps radius, edges with
+// vertex1 and vertex2) and .json, by extension; "-" is .skel from standard input. Positions and edges, radii
+// from .skel, .ply and .json, the surface map and the other node values from .json. Edges come out sorted,
+// each once. Throws ReadError that names the path and the line or element: a malformed file, an index out of
+// range, an edge from a node to itself, a number that is not finite. Throws UsageError for another extension.
 CurveSkeleton read_skeleton(const std::string& path);
 
 // The same from memory. Throws UsageError for formats that are only written.

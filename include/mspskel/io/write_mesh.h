@@ -30,7 +30,7 @@ std::vector<VertexColor> color_by_value(const std::vector<double>& values, doubl
 PolygonSoup to_polygon_soup(const DefaultMesh& mesh);
 
 // The bytes of a file. Throws UsageError for STL, which is only read, or if there are colours but not one a
-// vertex.
+// vertex, MeshError that names a point that is not finite.
 std::string format_mesh(const PolygonSoup& soup, MeshFormat format, const WriteMeshOptions& options = {});
 
 // Format by extension (.off .obj .ply; "-" writes OFF to standard output), written as write_file_atomically

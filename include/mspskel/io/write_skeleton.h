@@ -22,9 +22,12 @@ enum class SkeletonFormat {
 // By extension, in any case; "-" is kSkel. Throws UsageError that lists the known extensions.
 SkeletonFormat skeleton_format_of(const std::string& path);
 
+// Throws NoSkeletonError that names the node if one of its numbers is not finite.
+void refuse_not_finite(const CurveSkeleton& skeleton);
+
 // The bytes of a file, each number in the shortest form that reads back exactly (17 significant digits at
 // most). `report` is the text of a JSON object that JSON files carry as "report"; empty: none. Throws
-// UsageError if it is not JSON.
+// UsageError if it is not JSON, NoSkeletonError as refuse_not_finite does.
 std::string format_skeleton(const CurveSkeleton& skeleton, SkeletonFormat format,
                             const std::string& report = "");
 

@@ -154,12 +154,20 @@ inline void measure_inside(const SolidHierarchies& solid, const PolylineGraph& g
       continue;
     }
     ++certificate.edges_not_inside;
-    for (int k = 0; k < kSamples; ++k)
-      if (hierarchy.inside(p + (k + 0.5) / kSamples * (q - p))) inside += length / kSamples;
+    for (int k = 0; k < kSamples; ++k) {
+      const Vector3 x = p + (k + 0.5) / kSamples * (q - p);
+      if (hierarchy.inside(x))
+        inside += length / kSamples;
+      else if (!certificate.outside_at)
+        certificate.outside_at = x;
+    }
   }
   bool lone_outside = false;
   for (std::size_t v = 0; v < has_edge.size(); ++v)
-    if (!has_edge[v] && !solid(component[v]).inside(graph.position[v])) lone_outside = true;
+    if (!has_edge[v] && !solid(component[v]).inside(graph.position[v])) {
+      lone_outside = true;
+      if (!certificate.outside_at) certificate.outside_at = graph.position[v];
+    }
   if (lone_outside) ++certificate.edges_not_inside;
   certificate.inside = total > 0 ? inside / total : (lone_outside ? 0.0 : 1.0);
 }
@@ -177,8 +185,9 @@ inline std::string obstacle(const TopologyCertificate& certificate, bool clear, 
   return {};
 }
 
-// Sets verdict and reason; `obstacle` as above.
-inline void judge(const std::string& obstacle, TopologyCertificate& c) {
+// Sets verdict and reason; `obstacle` as above. What excuses a proof does not excuse the count of the
+// crossings, unless it is not known which component's they are.
+inline void judge(const std::string& obstacle, bool known_shells, TopologyCertificate& c) {
   const auto wrong = [&](const char* what, Index is, Index should_be) {
     c.verdict = TopologyVerdict::kFailed;
     c.reason = what + std::to_string(is) + ", not " + std::to_string(should_be);
@@ -189,7 +198,7 @@ inline void judge(const std::string& obstacle, TopologyCertificate& c) {
     wrong("b0 is ", c.b0, c.components);
   else if (c.b1 != c.total_genus)
     wrong("b1 is ", c.b1, c.total_genus);
-  else if (obstacle.empty() && c.crossing_rank != c.total_genus)
+  else if (known_shells && c.crossing_rank != c.total_genus)
     wrong("the cycles cross the discs with rank ", c.crossing_rank, c.total_genus);
 }
 
@@ -217,8 +226,9 @@ MSPSKEL_INLINE TopologyCertificate certify_topology(const SurfaceSnapshot& surfa
   detail::check_graph(surface, graph);
   TopologyCertificate c;
   c.components = surface.component_count;
-  for (const ComponentReport& component : report_mesh(surface, hierarchy, {0}).components)
-    c.nested_components += component.depth > 0;
+  if (surface.component_count > 1)  // one alone lies in no other
+    for (const ComponentReport& component : report_mesh(surface, hierarchy, {0}).components)
+      c.nested_components += component.depth > 0;
   c.self_intersecting = options.self_intersecting ? *options.self_intersecting
                                                   : count_self_intersections(surface, hierarchy, 1) > 0;
   c.genus = cocycles.genus;
@@ -240,7 +250,7 @@ MSPSKEL_INLINE TopologyCertificate certify_topology(const SurfaceSnapshot& surfa
   detail::measure_inside(detail::SolidHierarchies(surface, hierarchy, nested && known_shells), graph,
                          component, c);
   const bool matched = detail::pieces_match_components(surface, piece, component);
-  detail::judge(detail::obstacle(c, crossings.clear, matched, known_shells), c);
+  detail::judge(detail::obstacle(c, crossings.clear, matched, known_shells), known_shells, c);
   return c;
 }
 

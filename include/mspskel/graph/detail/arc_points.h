@@ -1,6 +1,7 @@
 // The points of all arcs under one numbering, and moves of them that stay in the solid.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -77,33 +78,81 @@ inline std::vector<Vector3> resampled_inside(const Arc& arc, double step,
 }
 
 // The move of every point towards its goal, shortened until no edge of the graph meets the surface that did
-// not before. Each attempt after the first ones stops a point for good, so this ends.
-inline void move_inside(ArcPoints& points, const BoundingVolumeHierarchy& solid,
-                        const std::vector<Vector3>& goal) {
-  std::vector<double> share(points.x.size(), 1.0);
-  const auto moved = [&](Index i) -> Vector3 { return points.x[i] + share[i] * (goal[i] - points.x[i]); };
-  std::vector<std::array<Index, 2>> edges;
-  for (const auto& chain : points.chains)
-    for (std::size_t i = 1; i < chain.size(); ++i) edges.push_back({chain[i - 1], chain[i]});
-  // How often a point's share was cut: an edge that crossed nothing is asked again if one of its ends' was.
-  std::vector<int> cuts(points.x.size(), 0), asked(edges.size(), -1);
-  bool changed = true;
-  for (int attempt = 0; changed; ++attempt) {
-    changed = false;
-    for (std::size_t e = 0; e < edges.size(); ++e) {
-      const auto [a, b] = edges[e];
-      if (share[a] == 0 && share[b] == 0) continue;
-      if (asked[e] == cuts[a] + cuts[b]) continue;
-      asked[e] = cuts[a] + cuts[b];
-      if (!solid.segment_crosses(moved(a), moved(b))) continue;
-      for (const Index i : {a, b}) {
-        share[i] = attempt < 4 ? 0.5 * share[i] : 0.0;
-        ++cuts[i];
-      }
+// not before, and no piece of the graph has left the solid as a whole.
+class InsideMove {
+ public:
+  InsideMove(ArcPoints& points, const BoundingVolumeHierarchy& solid, const std::vector<Vector3>& goal)
+      : points_(points), solid_(solid), goal_(goal), share_(points.x.size(), 1.0), cuts_(points.x.size(), 0) {
+    for (const auto& chain : points.chains)
+      for (std::size_t i = 1; i < chain.size(); ++i) edges_.push_back({chain[i - 1], chain[i]});
+    asked_.assign(edges_.size(), -1);
+  }
+
+  void run() {
+    // Each attempt after the first ones stops a point for good, so this ends.
+    for (attempt_ = 0; cut_crossing_edges() || cut_pieces_outside(); ++attempt_) {
+    }
+    for (Index i = 0; i < points_.count(); ++i) points_.x[i] = moved(i);
+  }
+
+ private:
+  Vector3 moved(Index i) const { return points_.x[i] + share_[i] * (goal_[i] - points_.x[i]); }
+  void cut(Index i) {
+    share_[i] = attempt_ < 4 ? 0.5 * share_[i] : 0.0;
+    ++cuts_[i];
+  }
+
+  bool cut_crossing_edges() {
+    bool changed = false;
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+      const auto [a, b] = edges_[e];
+      if (share_[a] == 0 && share_[b] == 0) continue;
+      // An edge that crossed nothing is asked again if the share of one of its ends was cut.
+      if (asked_[e] == cuts_[a] + cuts_[b]) continue;
+      asked_[e] = cuts_[a] + cuts_[b];
+      if (!solid_.segment_crosses(moved(a), moved(b))) continue;
+      for (const Index i : {a, b}) cut(i);
       changed = true;
     }
+    return changed;
   }
-  for (Index i = 0; i < points.count(); ++i) points.x[i] = moved(i);
+
+  // Edges that cross nothing hold for the whole piece that they join: one point tells where it is.
+  bool cut_pieces_outside() {
+    bool changed = false;
+    std::vector<bool> seen(points_.x.size(), false);
+    std::vector<Index> piece;
+    for (Index seed = 0; seed < points_.count(); ++seed) {
+      if (seen[seed] || points_.kind[seed] == ArcPoints::Kind::kDead) continue;
+      piece.assign(1, seed);
+      seen[seed] = true;
+      for (std::size_t k = 0; k < piece.size(); ++k)
+        for (const Index next : points_.next[piece[k]])
+          if (!seen[next]) {
+            seen[next] = true;
+            piece.push_back(next);
+          }
+      const auto moves = std::find_if(piece.begin(), piece.end(), [&](Index i) { return share_[i] > 0; });
+      if (moves == piece.end() || solid_.inside(moved(*moves)) || !solid_.inside(points_.x[*moves])) continue;
+      for (const Index i : piece) cut(i);
+      changed = true;
+    }
+    return changed;
+  }
+
+  ArcPoints& points_;
+  const BoundingVolumeHierarchy& solid_;
+  const std::vector<Vector3>& goal_;
+  std::vector<double> share_;
+  std::vector<int> cuts_;   // how often a point's share was cut
+  std::vector<int> asked_;  // per edge, the cuts of its ends when it was last asked
+  std::vector<std::array<Index, 2>> edges_;
+  int attempt_ = 0;
+};
+
+inline void move_inside(ArcPoints& points, const BoundingVolumeHierarchy& solid,
+                        const std::vector<Vector3>& goal) {
+  InsideMove(points, solid, goal).run();
 }
 
 }  // namespace detail

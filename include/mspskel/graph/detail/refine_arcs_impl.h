@@ -34,7 +34,7 @@ class ArcRefinement {
         touch_up_(options.centering) {
     // Until the graph's shape is settled a coarser line will do.
     draft_.rounds = (options.centering.rounds + 2) / 3;
-    draft_.step = 2 * options.centering.step;
+    draft_.step = std::min(0.5, 2 * options.centering.step);
     draft_.rays = std::max(4, 2 * options.centering.rays / 3);
     touch_up_.rounds = draft_.rounds;
   }

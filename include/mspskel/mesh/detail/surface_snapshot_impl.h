@@ -1,6 +1,9 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+
+#include "mspskel/mesh/detail/unit_scale.h"
 
 namespace mspskel {
 namespace detail {
@@ -24,6 +27,9 @@ inline void normalise(SurfaceSnapshot& s) {
   for (std::size_t v = 0; v < s.position.size(); ++v)
     if (!s.position[v].allFinite())
       throw MeshError("vertex " + std::to_string(v) + " has a coordinate that is not finite");
+  // Brought to the size of 1, areas and squares of lengths are numbers.
+  const double unit = unit_scale(s.position);
+  for (Vector3& p : s.position) p *= unit;
   // A first shift keeps the centroid's rounding small for models far from the origin.
   const Vector3 shift = s.position[static_cast<std::size_t>(s.origin[0])];
   Vector3 weighted = Vector3::Zero();
@@ -35,14 +41,17 @@ inline void normalise(SurfaceSnapshot& s) {
     area += twice;
     weighted += twice * (a + b + c) / 3.0;
   }
-  if (!(area > 0) || !std::isfinite(area))
-    throw MeshError("the surface has no area, or coordinates too large to measure it");
+  if (!(area > 0)) throw MeshError("the surface has no area");
   s.frame.origin = shift + weighted / area;
   std::vector<Vector3> used;
   for (std::size_t v = 0; v < s.position.size(); ++v)
     if (s.vertex_halfedge[v] != kNone) used.push_back(s.position[v]);
   s.frame.scale = extent(used, s.frame.origin);
   for (Vector3& p : s.position) p = s.frame.to_normalised(p);
+  s.frame.origin /= unit;
+  s.frame.scale /= unit;
+  if (!std::isfinite(s.frame.scale * s.frame.scale))
+    throw MeshError("the coordinates are too large: areas would not be numbers; make the model smaller");
 }
 
 // Angle-weighted vertex normals, barycentric vertex areas.

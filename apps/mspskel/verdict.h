@@ -1,0 +1,20 @@
+// What a certificate means to a user: warnings, and whether the skeleton may pass for one of the mesh. Both
+// the default command and `check` ask here, so they agree.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "certificate.h"
+
+namespace mspskel::cli {
+
+struct Verdict {
+  std::vector<std::string> warnings;
+  std::string failure;  // a sentence; empty if the skeleton may pass
+};
+
+// `surface` is what was certified; places in the sentences are in model units.
+Verdict judge(const SurfaceSnapshot& surface, const TopologyCertificate& certificate);
+
+}  // namespace mspskel::cli

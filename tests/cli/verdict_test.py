@@ -1,0 +1,80 @@
+"""The certificate decides about the exit status, and says what is wrong and where, in both commands."""
+import json
+import unittest
+
+from program import DONE, NO_SKELETON, ProgramTest
+
+
+def skel(points, edges):
+    """A .skel file of small balls."""
+    lines = ["ID Cx Cy Cz RADIUS #NEIGHBORS NEIGHBORS_LIST", str(len(points))]
+    for i, point in enumerate(points):
+        near = [b if a == i else a for a, b in edges if i in (a, b)]
+        lines.append(" ".join(map(str, [i, *point, 0.1, len(near), *near])))
+    return "\n".join(lines) + "\n"
+
+
+class Check(ProgramTest):
+    # A square in the torus of radii 1 and 0.4 that goes round its hole, and one that does not.
+    ROUND = [(1, 0, 0), (0.75, 0.75, 0), (0, 1, 0), (-0.75, 0.75, 0), (-1, 0, 0), (-0.75, -0.75, 0), (0, -1, 0),
+             (0.75, -0.75, 0)]
+    LOCAL = [(1, 0, -0.1), (1, 0.2, -0.1), (1, 0.2, 0.1), (1, 0, 0.1)]
+
+    def check(self, points, edges=None, *options):
+        mesh = self.sample("torus", 600)
+        n = len(points)
+        self.write("k.skel", skel(points, edges if edges is not None else [(i, (i + 1) % n) for i in range(n)]))
+        return self.run_program("check", mesh, "k.skel", *options)
+
+    def test_cycle_round_the_handle(self):
+        result = self.check(self.ROUND)
+        self.assertEqual((result.returncode, result.stderr), (DONE, b""))
+        self.assertIn(b"1 piece and 1 cycle on a surface of 1 component", result.stdout)
+
+    def test_cycle_that_misses_the_handle(self):
+        # Pieces and cycles are right in number, so that only the crossings tell.
+        result = self.check(self.LOCAL)
+        self.assertIn(b"certificate  failed", result.stdout)
+        self.assertEqual(result.returncode, NO_SKELETON)
+        self.assertIn(b"rank 0, not 1", result.stderr)
+
+    def test_lost_cycle(self):
+        result = self.check(self.ROUND, [(i, i + 1) for i in range(7)])
+        self.assertEqual(result.returncode, NO_SKELETON)
+        self.assertIn(b"b1 is 0, not 1", result.stderr)
+
+    def test_outside_says_how_much_and_where(self):
+        result = self.check(self.ROUND + [(1, 0, 3)], [(i, (i + 1) % 8) for i in range(8)] + [(0, 8)])
+        self.assertEqual(result.returncode, NO_SKELETON)
+        self.assertRegex(result.stderr.decode(), r"28 % of the skeleton's length .* outside the solid, on 1 edge, .* at 1 0 0\.\d")
+        self.assertEqual(self.check(self.ROUND + [(1, 0, 3)], [(i, (i + 1) % 8) for i in range(8)] + [(0, 8)],
+                                    "--least-inside", 0.5).returncode, DONE)
+
+
+class Extract(ProgramTest):
+    # Without its topology kept, the collapse of a torus of 14 faces loses the handle.
+    LITERAL = ["-q", "--mode", "thesis", "--no-keep-topology"]
+
+    def test_failed_skeleton_is_not_written(self):
+        mesh = self.sample("csaszar-torus", 0)
+        message = self.fail_with(NO_SKELETON, mesh, "a.skel", "--report", "r.json", "--stages", "s", *self.LITERAL)
+        self.assertIn("b1 is 0, not 1", message)
+        self.assertIn("--keep-failed", message)
+        self.fail_with(NO_SKELETON, mesh, "-", *self.LITERAL)
+
+    def test_keep_failed_writes_and_still_fails(self):
+        mesh = self.sample("csaszar-torus", 0)
+        result = self.run_program(mesh, "a.skel", "--report", "r.json", "--keep-failed", *self.LITERAL)
+        self.assertEqual(result.returncode, NO_SKELETON)
+        self.assertIn(b"b1 is 0, not 1", result.stderr)
+        self.assertEqual(self.files(), ["a.skel", "csaszar-torus.off", "r.json"])
+        self.assertEqual(json.loads((self.folder / "r.json").read_text())["checks"]["topology"], "failed")
+        self.assertEqual(self.run_program("check", mesh, "a.skel", "--least-inside", 0).returncode, NO_SKELETON)
+
+    def test_keep_failed_changes_nothing_else(self):
+        mesh = self.sample()
+        self.assertEqual(self.succeed(mesh, "-"), self.succeed(mesh, "-", "--keep-failed"))
+
+
+if __name__ == "__main__":
+    unittest.main()
