@@ -160,7 +160,6 @@ void result(benchmark::State& state, const Stages& s, const Execution& execution
   CurveSkeleton skeleton;
   for (auto _ : state) {
     ArcGraph graph = s.with_digits;
-    restore_cycles(graph, s.input, s.solid, s.input_cocycles);
     skeleton = make_curve_skeleton(graph, s.input, s.solid, s.perimeter, s.error, execution);
   }
   state.counters["nodes"] = static_cast<double>(skeleton.nodes.size());

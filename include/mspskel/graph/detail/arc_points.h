@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "mspskel/collapse/crossing_labels.h"
 #include "mspskel/graph/arc_graph.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
 
@@ -54,12 +55,14 @@ struct ArcPoints {
   Index count() const { return static_cast<Index>(x.size()); }
 };
 
-// The arc at even steps; where a step would cut a corner through the surface, the corner stays between.
+// The arc at even steps; where a step would cut a corner through the surface or round a handle, the corner
+// stays between.
 inline std::vector<Vector3> resampled_inside(const Arc& arc, double step,
-                                             const BoundingVolumeHierarchy& solid) {
+                                             const BoundingVolumeHierarchy& solid,
+                                             const CrossingLabels& crossings) {
   const std::vector<Vector3> even = resampled(arc, step);
   const double share = arc_length(arc) / static_cast<double>(even.size() - 1);
-  std::vector<Vector3> points{even.front()};
+  std::vector<Vector3> points{even.front()}, cut;
   std::size_t corner = 0;
   double walked = 0;  // from the start to the corner
   const auto pass = [&] {
@@ -69,17 +72,21 @@ inline std::vector<Vector3> resampled_inside(const Arc& arc, double step,
   for (std::size_t k = 1; k < even.size(); ++k) {
     const double from = share * static_cast<double>(k - 1), to = share * static_cast<double>(k);
     while (corner + 1 < arc.points.size() && walked <= from) pass();
-    if (solid.segment_crosses(even[k - 1], even[k]))
-      for (; corner + 1 < arc.points.size() && walked < to; pass()) points.push_back(arc.points[corner]);
+    cut.assign(1, even[k - 1]);
+    for (; corner + 1 < arc.points.size() && walked < to; pass()) cut.push_back(arc.points[corner]);
+    cut.push_back(even[k]);
+    if (solid.segment_crosses(even[k - 1], even[k]) || crossings.goes_round(cut))
+      points.insert(points.end(), cut.begin() + 1, cut.end() - 1);
     points.push_back(even[k]);
   }
   return points;
 }
 
 // The move of every point towards its goal, shortened until no edge of the graph meets the surface that did
-// not before. Each attempt after the first ones stops a point for good, so this ends.
+// not before, and none goes round a handle on its way. Each attempt after the first ones stops a point for
+// good, so this ends.
 inline void move_inside(ArcPoints& points, const BoundingVolumeHierarchy& solid,
-                        const std::vector<Vector3>& goal) {
+                        const std::vector<Vector3>& goal, const CrossingLabels& crossings) {
   std::vector<double> share(points.x.size(), 1.0);
   const auto moved = [&](Index i) -> Vector3 { return points.x[i] + share[i] * (goal[i] - points.x[i]); };
   std::vector<std::array<Index, 2>> edges;
@@ -95,7 +102,9 @@ inline void move_inside(ArcPoints& points, const BoundingVolumeHierarchy& solid,
       if (share[a] == 0 && share[b] == 0) continue;
       if (asked[e] == cuts[a] + cuts[b]) continue;
       asked[e] = cuts[a] + cuts[b];
-      if (!solid.segment_crosses(moved(a), moved(b))) continue;
+      if (!solid.segment_crosses(moved(a), moved(b)) &&
+          !crossings.goes_round({points.x[a], points.x[b], moved(b), moved(a)}))
+        continue;
       for (const Index i : {a, b}) {
         share[i] = attempt < 4 ? 0.5 * share[i] : 0.0;
         ++cuts[i];
