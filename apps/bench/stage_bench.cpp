@@ -11,7 +11,6 @@
 #include "mspskel/graph/find_digits.h"
 #include "mspskel/graph/limb_tips.h"
 #include "mspskel/graph/reach_digits.h"
-#include "mspskel/graph/restore_cycles.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
 
 namespace mspskel::bench {
@@ -167,7 +166,6 @@ void result(benchmark::State& state, const Stages& s, const Execution& execution
   CurveSkeleton skeleton;
   for (auto _ : state) {
     ArcGraph graph = s.with_digits;
-    restore_cycles(graph, s.input, s.solid, s.input_cocycles);
     skeleton = make_curve_skeleton(graph, s.input, s.solid, s.perimeter, s.error, execution);
   }
   state.counters["nodes"] = static_cast<double>(skeleton.nodes.size());

@@ -10,12 +10,13 @@
 #include "mspskel/base/progress.h"
 #include "mspskel/center/skeleton_mesh.h"
 #include "mspskel/center/spatial_coherence.h"
+#include "mspskel/collapse/coarse_labels.h"
 #include "mspskel/collapse/collapse_skeleton_mesh.h"
 #include "mspskel/collapse/volume_cocycles.h"
 #include "mspskel/graph/branch_filter.h"
 #include "mspskel/graph/curve_skeleton.h"
+#include "mspskel/graph/cycle_rank.h"
 #include "mspskel/graph/refine_arcs.h"
-#include "mspskel/graph/restore_cycles.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/mesh/coarsen_surface.h"
 #include "mspskel/slice/cone_refinement.h"
@@ -79,8 +80,8 @@ struct ExtractResult {
   CollapsedSkeleton collapsed;  // after branch filtering, if that is on
   BranchFilterResult filter;    // its counts; its skeleton is moved to `collapsed`
   RefinementCounts refinement;
-  Index digits = 0;  // arcs that reach_digits added
-  CycleRestoration restoration;
+  Index digits = 0;                                     // arcs that reach_digits added
+  CycleRank cycles;                                     // of the finished arcs
   std::vector<std::pair<std::string, double>> seconds;  // stage, wall seconds
   std::vector<std::string> warnings;
 };

@@ -1,60 +1,66 @@
 // Rank of a growing set of cocycle labels, exact modulo a large prime.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "mspskel/collapse/cocycle_label.h"
 
 namespace mspskel {
 
-// Gaussian elimination modulo p = 2^31 − 1, one row at a time. The rank modulo p is a lower bound of the rank
-// over the rationals, so rows that are called independent are independent.
+// Gaussian elimination modulo p = 2^31 − 1, one sparse row at a time. The rank modulo p is a lower bound of
+// the rank over the rationals, so rows that are called independent are independent.
 class LabelRank {
  public:
-  // Adds the label to the rows if it is independent of them, and says whether it was. Cost: O(rank · g).
+  // Adds the label to the rows if it is independent of them, and says whether it was. Cost: the entries of
+  // the rows that it is reduced by; a label with an entry that no row has costs that entry alone where it
+  // comes first.
   bool insert(const CocycleLabel& label) {
-    std::vector<std::uint64_t> row = dense(label);
-    reduce(row);
-    const auto pivot = std::find_if(row.begin(), row.end(), [](std::uint64_t x) { return x != 0; });
-    if (pivot == row.end()) return false;
-    const std::uint64_t scale = inverse(*pivot);
-    pivots_.push_back(static_cast<std::size_t>(pivot - row.begin()));
-    for (std::uint64_t& x : row) x = x * scale % kPrime;
+    Row row = reduced(label);
+    if (row.empty()) return false;
+    const std::uint64_t scale = inverse(row.front().second);
+    for (Entry& entry : row) entry.second = entry.second * scale % kPrime;
+    const auto pivot = static_cast<std::size_t>(row.front().first);
+    if (row_of_.size() <= pivot) row_of_.resize(pivot + 1, kNone);
+    row_of_[pivot] = static_cast<Index>(rows_.size());
     rows_.push_back(std::move(row));
     return true;
   }
-  // Whether insert() would return false. Cost: O(rank · g).
-  bool depends(const CocycleLabel& label) const {
-    std::vector<std::uint64_t> row = dense(label);
-    reduce(row);
-    return std::all_of(row.begin(), row.end(), [](std::uint64_t x) { return x == 0; });
-  }
+  // Whether insert() would return false. Cost: the same.
+  bool depends(const CocycleLabel& label) const { return reduced(label).empty(); }
   Index rank() const { return static_cast<Index>(rows_.size()); }
 
  private:
+  using Entry = std::pair<Index, std::uint64_t>;
+  using Row = std::vector<Entry>;  // by ascending index
   static constexpr std::uint64_t kPrime = 2147483647u;
 
-  static std::vector<std::uint64_t> dense(const CocycleLabel& label) {
-    std::vector<std::uint64_t> row;
-    if (label.is_zero()) return row;
-    row.assign(static_cast<std::size_t>(label.entries().back().index) + 1, 0);
-    for (const auto& [index, value] : label.entries()) {
-      const std::int64_t residue = std::int64_t{value} % static_cast<std::int64_t>(kPrime);
-      row[static_cast<std::size_t>(index)] =
-          static_cast<std::uint64_t>(residue < 0 ? residue + static_cast<std::int64_t>(kPrime) : residue);
-    }
-    return row;
+  static std::uint64_t residue(std::int64_t value) {
+    const std::int64_t r = value % static_cast<std::int64_t>(kPrime);
+    return static_cast<std::uint64_t>(r < 0 ? r + static_cast<std::int64_t>(kPrime) : r);
   }
-  // Rows are scaled to have 1 at their pivot; a later row is zero at the pivots of the earlier ones.
-  void reduce(std::vector<std::uint64_t>& row) const {
-    for (std::size_t r = 0; r < rows_.size(); ++r) {
-      if (pivots_[r] >= row.size() || row[pivots_[r]] == 0) continue;
-      const std::uint64_t factor = kPrime - row[pivots_[r]];
-      if (row.size() < rows_[r].size()) row.resize(rows_[r].size(), 0);
-      for (std::size_t i = 0; i < rows_[r].size(); ++i) row[i] = (row[i] + factor * rows_[r][i]) % kPrime;
+
+  // What is left of the label when the rows with its leading entries are taken off, one after the other. A
+  // row begins with a 1 at its pivot and has nothing before it.
+  Row reduced(const CocycleLabel& label) const {
+    std::map<Index, std::uint64_t> open;
+    for (const auto& [index, value] : label.entries())
+      if (const std::uint64_t r = residue(value); r != 0) open.emplace(index, r);
+    for (auto at = open.begin(); at != open.end();) {
+      const auto column = static_cast<std::size_t>(at->first);
+      const Index r = column < row_of_.size() ? row_of_[column] : kNone;
+      if (r == kNone) break;
+      const std::uint64_t factor = kPrime - at->second;
+      for (const auto& [index, value] : rows_[static_cast<std::size_t>(r)]) {
+        std::uint64_t& x = open[index];
+        x = (x + factor * value) % kPrime;
+        if (x == 0 && index != at->first) open.erase(index);
+      }
+      at = open.erase(at);
     }
+    return {open.begin(), open.end()};
   }
   // x^(p − 2), by Fermat.
   static std::uint64_t inverse(std::uint64_t x) {
@@ -64,8 +70,8 @@ class LabelRank {
     return result;
   }
 
-  std::vector<std::vector<std::uint64_t>> rows_;
-  std::vector<std::size_t> pivots_;
+  std::vector<Row> rows_;
+  std::vector<Index> row_of_;  // per index the row whose pivot it is, or kNone
 };
 
 }  // namespace mspskel

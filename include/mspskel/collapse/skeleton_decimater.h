@@ -47,6 +47,9 @@ struct CollapsedSkeleton {
   std::vector<CollapsedNode> nodes;   // in the order of the smallest vertex that maps to each
   std::vector<CollapsedEdge> edges;   // sorted by their nodes
   std::vector<Index> node_of_vertex;  // a partition of the surface; kNone for vertices without a face
+  // Per vertex the label of the way to it from its node's origin, the vertex whose place in the complex the
+  // node has: labels of edges are those of ways between origins. Empty after a filter.
+  std::vector<CocycleLabel> label_of_vertex;
   CollapseCounts counts;
 };
 
@@ -126,7 +129,8 @@ class SkeletonDecimater {
   CollapseOptions options_;
   CollapseCounts counts_;
   std::vector<Node> nodes_;
-  std::vector<Index> parent_;  // gone vertex -> the one it merged into
+  std::vector<Index> parent_;              // gone vertex -> the one it merged into
+  std::vector<CocycleLabel> from_parent_;  // the way to it from there
   std::vector<State> state_;
   std::vector<Key> heap_;
   std::vector<Index> living_;  // scratch of the dead ends: a superset of the living edges

@@ -28,7 +28,7 @@ struct PolylineGraph {
 
 enum class TopologyVerdict {
   kProved,  // every condition holds
-  kKept,    // b0 and b1 are right, but something stands in the way of the proof
+  kKept,    // b0, b1 and the rank are right, but something stands in the way of the proof
   kFailed,  // b0 or b1 is wrong, or the cycles depend on each other
 };
 

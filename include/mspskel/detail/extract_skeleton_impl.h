@@ -114,17 +114,50 @@ inline void run_vertex_stages(const SurfaceSnapshot& surface, const BoundingVolu
   clock.lap("skeletal_points");
 }
 
-// From skeletal points to the collapsed graph, on the same surface and one thread.
-inline void run_collapse_stages(const SurfaceSnapshot& surface, const ExtractOptions& options,
-                                ExtractResult& result, StageClock& clock) {
+// Planes to look for cocycles with: the slices, each at the first vertex of its class.
+inline std::vector<SliceCandidate> cocycle_candidates(const ExtractResult& result) {
+  std::vector<SliceCandidate> candidates = slice_candidates(result.slices);
+  if (!result.coarse) return candidates;
+  const std::vector<Index>& coarse_vertex = result.coarse->coarse_vertex;
+  std::vector<Index> first(result.slices.valid.size(), kNone);
+  for (std::size_t v = coarse_vertex.size(); v-- > 0;)
+    if (coarse_vertex[v] != kNone) first[coarse_vertex[v]] = static_cast<Index>(v);
+  for (SliceCandidate& candidate : candidates) candidate.vertex = first[candidate.vertex];
+  return candidates;
+}
+
+// Where the collapse has its arcs run, on the surface that was coarsened.
+inline CollapseTubes collapse_tubes(const ExtractResult& result, const CoarseLabels& coarse_labels,
+                                    ArcTubes arcs) {
+  CollapseTubes tubes;
+  tubes.arcs = std::move(arcs);
+  tubes.halfedge = result.cocycles.label;
+  tubes.node_of_vertex = result.collapsed.node_of_vertex;
+  tubes.to_vertex = result.collapsed.label_of_vertex;
+  if (!result.coarse) return tubes;
+  const std::vector<Index>& from = result.coarse->coarse_vertex;
+  tubes.node_of_vertex = carried_over(tubes.node_of_vertex, from, kNone);
+  tubes.to_vertex = carried_over(tubes.to_vertex, from, CocycleLabel{});
+  for (std::size_t v = 0; v < coarse_labels.within.size(); ++v) tubes.to_vertex[v] += coarse_labels.within[v];
+  return tubes;
+}
+
+// From skeletal points to the collapsed graph, on the same surface and one thread. `shells` is what `surface`
+// was coarsened from.
+inline void run_collapse_stages(const SurfaceSnapshot& shells, const SurfaceSnapshot& surface,
+                                const ExtractOptions& options, ExtractResult& result,
+                                CoarseLabels& coarse_labels, StageClock& clock) {
   if (options.coherence.enabled) {
     apply_spatial_coherence(surface, options.coherence, result.skeleton_mesh);
     clock.lap("coherence");
   }
-  result.cocycles = compute_volume_cocycles(surface, slice_candidates(result.slices), options.cocycles,
+  result.cocycles = compute_volume_cocycles(shells, cocycle_candidates(result), options.cocycles,
                                             options.execution.progress);
+  if (result.coarse)
+    coarse_labels = carry_labels_over(shells, result.cocycles.label, surface, result.coarse->coarse_vertex);
   clock.lap("cocycles");
-  result.collapsed = collapse_skeleton_mesh(surface, result.skeleton_mesh, result.cocycles.label,
+  result.collapsed = collapse_skeleton_mesh(surface, result.skeleton_mesh,
+                                            result.coarse ? coarse_labels.halfedge : result.cocycles.label,
                                             options.collapse, options.execution);
   clock.lap("collapse");
   if (!options.filter_branches) return;
@@ -146,16 +179,10 @@ inline void carry_over(ExtractResult& result, ArcGraph& arcs) {
   mesh.valid = carried_over(mesh.valid, from, std::uint8_t{0});
   mesh.area = result.surface.vertex_area;
   result.collapsed.node_of_vertex = carried_over(result.collapsed.node_of_vertex, from, kNone);
+  result.collapsed.label_of_vertex = carried_over(result.collapsed.label_of_vertex, from, CocycleLabel{});
   if (arcs.arc_of_vertex.empty()) return;
   arcs.arc_of_vertex = carried_over(arcs.arc_of_vertex, from, kNone);
   arcs.hub_of_vertex = carried_over(arcs.hub_of_vertex, from, kNone);
-}
-
-// No progress is reported: that is for the thread that runs the stages.
-inline VolumeCocycles cocycles_of_input(const ExtractResult& result, const ExtractOptions& options) {
-  const VertexSlices slices =
-      result.coarse ? carried_over(result.slices, result.coarse->coarse_vertex) : result.slices;
-  return compute_volume_cocycles(result.surface, slice_candidates(slices), options.cocycles, {});
 }
 
 inline void collect_warnings(ExtractResult& result) {
@@ -167,9 +194,10 @@ inline void collect_warnings(ExtractResult& result) {
     result.warnings.push_back("no way inside was found for " +
                               counted(result.refinement.routing.unroutable, "stretch", "stretches") +
                               " of the skeleton outside the solid");
-  if (result.restoration.abandoned > 0)
+  if (result.cycles.rank < result.cycles.cycles)
     result.warnings.push_back("no way round the handle that it misses was found for " +
-                              counted(result.restoration.abandoned, "cycle") + " of the skeleton");
+                              counted(result.cycles.cycles - result.cycles.rank, "cycle") +
+                              " of the skeleton");
 }
 
 }  // namespace detail
@@ -244,40 +272,46 @@ inline ExtractResult extract_component(SurfaceSnapshot surface, const SurfaceSna
   const SurfaceSnapshot& working = result.coarse ? result.coarse->surface : shells;
   run_vertex_stages(working, result.coarse || bounds != nullptr ? nullptr : &solid, options, result, clock);
   std::vector<LimbTip> tips;
-  std::optional<VolumeCocycles> input_cocycles;
+  CoarseLabels coarse_labels;
   run_beside(
-      options.execution, [&] { detail::run_collapse_stages(working, options, result, clock); },
+      options.execution,
+      [&] { detail::run_collapse_stages(shells, working, options, result, coarse_labels, clock); },
       [&] {
         if (options.refinement.enabled)
           tips = detail::limb_tips(shells, limbs, solid, result.slices, options.refinement.limbs);
-        if (result.coarse || oriented) input_cocycles = detail::cocycles_of_input(result, options);
       });
   clock.lap("limb_tips");
   ArcGraph arcs;
+  ArcClasses classes;
   if (options.refinement.enabled) {
-    arcs = make_arc_graph(result.collapsed);
+    ArcTubes tubes;
+    arcs = make_arc_graph(result.collapsed, tubes);
+    if (result.cocycles.rank > 0 && !options.filter_branches)
+      classes = {CrossingLabels(result.cocycles),
+                 detail::collapse_tubes(result, coarse_labels, std::move(tubes))};
     result.refinement = refine_arcs(arcs, working, shells, solid, result.slices, std::move(tips),
-                                    options.refinement, options.execution);
+                                    options.refinement, options.execution, classes);
     clock.lap("arcs");
   }
+  // The labels are those of half-edges, which turned shells have others of.
+  if (oriented)
+    result.cocycles = compute_volume_cocycles(result.surface, detail::cocycle_candidates(result),
+                                              options.cocycles, options.execution.progress);
   if (result.coarse) detail::carry_over(result, arcs);
-  if (input_cocycles) result.cocycles = std::move(*input_cocycles);
   if (options.refinement.enabled) {
     // On the input itself: coarser surfaces show no digits.
     result.digits = reach_digits(
         arcs, shells, solid, find_digits(arcs, shells, solid, options.refinement.limbs, options.execution),
         options.refinement.centering.step, options.refinement.joint_overlap);
     clock.lap("digits");
-    // Last, and on the input too: centring may pull an arc off a handle that is small beside its step.
-    result.restoration = restore_cycles(arcs, result.surface, solid, result.cocycles);
-    if (result.restoration.restored > 0) subdivide(arcs, 1.25 * options.refinement.centering.step);
     if (options.refinement.node_spacing) space_nodes(arcs, solid, *options.refinement.node_spacing);
     if (options.refinement.nodes > 0) {
-      const Index left = limit_nodes(arcs, solid, options.refinement.nodes);
+      const Index left = limit_nodes(arcs, solid, options.refinement.nodes, classes.crossings);
       if (left > options.refinement.nodes)
         result.warnings.push_back("the skeleton keeps " + counted(left, "node") + ": with " +
                                   std::to_string(options.refinement.nodes) + " it would leave the solid");
     }
+    result.cycles = cycle_rank(arcs, CrossingLabels(result.cocycles));
     clock.lap("arcs");
     result.skeleton = make_curve_skeleton(arcs, result.surface, solid, result.skeleton_mesh.perimeter,
                                           result.skeleton_mesh.error, options.execution);

@@ -134,13 +134,14 @@ inline void add_counts(const RefinementCounts& part, RefinementCounts& whole) {
   whole.routing.hubs_moved += part.routing.hubs_moved;
   whole.routing.routed += part.routing.routed;
   whole.routing.unroutable += part.routing.unroutable;
+  whole.classes.checked += part.classes.checked;
+  whole.classes.routed += part.classes.routed;
+  whole.classes.abandoned += part.classes.abandoned;
 }
 
-inline void add_counts(const CycleRestoration& part, CycleRestoration& whole) {
+inline void add_counts(const CycleRank& part, CycleRank& whole) {
   whole.cycles += part.cycles;
   whole.rank += part.rank;
-  whole.restored += part.restored;
-  whole.abandoned += part.abandoned;
 }
 
 // Before the component's cocycles are joined: `first_cocycle` is the number of those before.
@@ -160,6 +161,8 @@ inline void join_collapsed(const CollapsedSkeleton& part, const ComponentPlace& 
   for (std::size_t v = 0; v < part.node_of_vertex.size(); ++v)
     if (part.node_of_vertex[v] != kNone)
       whole.node_of_vertex[place.vertex[v]] = part.node_of_vertex[v] + first;
+  for (std::size_t v = 0; v < part.label_of_vertex.size(); ++v)
+    whole.label_of_vertex[place.vertex[v]] = shifted(part.label_of_vertex[v], first_cocycle);
   add_counts(part.counts, whole.counts);
 }
 
@@ -188,7 +191,7 @@ inline void join_work(const ExtractResult& part, ExtractResult& whole) {
   whole.filter.combined_joints += part.filter.combined_joints;
   whole.filter.refused_joints += part.filter.refused_joints;
   add_counts(part.refinement, whole.refinement);
-  add_counts(part.restoration, whole.restoration);
+  add_counts(part.cycles, whole.cycles);
   whole.digits += part.digits;
   join_seconds(part.seconds, whole.seconds);
   whole.warnings.insert(whole.warnings.end(), part.warnings.begin(), part.warnings.end());
@@ -209,6 +212,7 @@ inline void make_room(ExtractResult& whole) {
   whole.cocycles.label.resize(whole.surface.halfedge_count());
   whole.cocycles.genus.assign(whole.surface.component_count, 0);
   whole.collapsed.node_of_vertex.assign(n, kNone);
+  whole.collapsed.label_of_vertex.resize(n);
   whole.skeleton.node_of_vertex.assign(n, kNone);
 }
 

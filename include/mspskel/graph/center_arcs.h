@@ -6,6 +6,7 @@
 
 #include "mspskel/base/error.h"
 #include "mspskel/base/progress.h"
+#include "mspskel/collapse/crossing_labels.h"
 #include "mspskel/graph/arc_graph.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/slice/detail/region_moments.h"
@@ -58,10 +59,11 @@ VisibleSection visible_section(const BoundingVolumeHierarchy& solid, const Vecto
 // over all points, with c the section's centre, w = roundness² / (1 + (|c − x| / 0.7 R)⁴) and μ = smoothness
 // · (distance to the surface / step)² · (0.008 / step)²; leaf ends stay in their section, joints are nearly
 // free. Steps that would cut a corner through the surface keep the corner between them. A point moves only as
-// far as its edges stay off the surface, so what is inside stays inside.
+// far as its edges stay off the surface, so what is inside stays inside, and as far as no edge sweeps over a
+// handle, so cycles keep their classes.
 // Cost: O(points · rays · log faces) a round. Throws UsageError, Cancelled.
 void center_arcs(ArcGraph& graph, const BoundingVolumeHierarchy& solid, const CenteringOptions& options,
-                 const Execution& execution = {});
+                 const Execution& execution = {}, const CrossingLabels& crossings = {});
 
 }  // namespace mspskel
 

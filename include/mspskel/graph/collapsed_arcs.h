@@ -13,6 +13,17 @@ namespace mspskel {
 // arcs are numbered by place in a frame that turns with the nodes. Cost: O(size · log size).
 ArcGraph make_arc_graph(const CollapsedSkeleton& collapsed);
 
+// What the collapse knows of an arc: its nodes from one hub to the other, and the label of each step.
+struct ArcTube {
+  std::vector<Index> nodes;
+  std::vector<CocycleLabel> step;  // from nodes[i] to nodes[i + 1]
+};
+struct ArcTubes {
+  std::vector<ArcTube> tube;       // per arc
+  std::vector<Index> node_of_hub;  // per hub
+};
+ArcGraph make_arc_graph(const CollapsedSkeleton& collapsed, ArcTubes& tubes);
+
 // The finished skeleton: hubs and arc points become nodes with radii, loops and parallel arcs get nodes of
 // their own, each vertex goes to the nearest node of its arc (of the arcs at its hub), in connected patches.
 // `perimeter` and `error` are per vertex and averaged over what maps to a node. Cost: O(vertices · points of

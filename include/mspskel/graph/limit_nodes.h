@@ -1,6 +1,7 @@
 // A node budget: the points of the arcs that matter least go, the shape and the topology stay.
 #pragma once
 
+#include "mspskel/collapse/crossing_labels.h"
 #include "mspskel/graph/arc_graph.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
 
@@ -10,7 +11,8 @@ namespace mspskel {
 // inner points together are at most `nodes` or no point can go: the chord would meet the surface, or the arc
 // would become a loop of less than three edges or a second edge between the same hubs. Returns the number of
 // nodes left, which may be above the budget. Cost: O(points²) distances, a segment query a removal.
-Index limit_nodes(ArcGraph& graph, const BoundingVolumeHierarchy& solid, Index nodes);
+Index limit_nodes(ArcGraph& graph, const BoundingVolumeHierarchy& solid, Index nodes,
+                  const CrossingLabels& crossings = {});
 
 }  // namespace mspskel
 

@@ -7,6 +7,7 @@
 #include "mspskel/graph/center_arcs.h"
 #include "mspskel/graph/extend_ends.h"
 #include "mspskel/graph/limb_tips.h"
+#include "mspskel/graph/route_by_class.h"
 #include "mspskel/graph/route_inside.h"
 #include "mspskel/graph/zip_arcs.h"
 
@@ -44,16 +45,19 @@ struct RefinementCounts {
   Index completed = 0;  // arcs added for limbs that had none
   Index zips = 0;       // pairs of arcs joined from their joint to where they part
   RoutingResult routing;
+  ClassRouting classes;
 };
 
 // Every step keeps the number of components and of independent cycles: leaf arcs go, arcs that are no loops
-// contract, points move. `slices`, `tips` and the graph's map are of the vertices of `surface`; `input` is
-// the surface that bounds `solid`, and the same one unless `surface` is coarser. Throws UsageError,
-// Cancelled, and NoSkeletonError if a step broke that promise, which would be a bug.
+// contract, points move. With `classes`, arcs enter the solid in the class that the collapse gave them, and
+// no step changes it: what would is not done, or only as far as it does not. `slices`, `tips` and the graph's
+// map are of the vertices of `surface`; `input` is the surface that bounds `solid`, and the same one unless
+// `surface` is coarser. Throws UsageError, Cancelled, and NoSkeletonError if a step broke that promise, which
+// would be a bug.
 RefinementCounts refine_arcs(ArcGraph& graph, const SurfaceSnapshot& surface, const SurfaceSnapshot& input,
                              const BoundingVolumeHierarchy& solid, const VertexSlices& slices,
                              std::vector<LimbTip> tips, const RefinementOptions& options,
-                             const Execution& execution = {});
+                             const Execution& execution = {}, const ArcClasses& classes = {});
 
 }  // namespace mspskel
 

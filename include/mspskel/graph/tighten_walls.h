@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "mspskel/collapse/crossing_labels.h"
 #include "mspskel/graph/arc_graph.h"
 #include "mspskel/graph/detail/inner_graph.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
@@ -19,7 +20,8 @@ namespace mspskel {
 // edges stay off the surface. Returns the number of arcs drawn. Cost: a section a point, and a closest point
 // and a ray a point and round; a path through the solid an end of a tube.
 Index tighten_in_walls(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
-                       const std::vector<bool>& shells, detail::InnerGraph& inner, double step);
+                       const std::vector<bool>& shells, detail::InnerGraph& inner, double step,
+                       const CrossingLabels& crossings = {});
 
 }  // namespace mspskel
 

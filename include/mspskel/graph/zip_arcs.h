@@ -1,6 +1,8 @@
 // Arcs that leave a joint side by side through the same limb are one arc up to where they part.
 #pragma once
 
+#include "mspskel/base/progress.h"
+#include "mspskel/collapse/crossing_labels.h"
 #include "mspskel/graph/arc_graph.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/mesh/surface_snapshot.h"
@@ -21,9 +23,12 @@ inline void validate(const ZipOptions& o) {
 // Zips pairs of arcs from their common joint to where they part, the longest common way first; the joint
 // moves there along one common stem. A leaf arc that never parts from its neighbour goes. Identifying two
 // paths with a common start keeps the homotopy type. Vertices of the arcs go to the stem where that is
-// nearer. Returns the number of zips. Cost: O(joints · arcs² · points) distance queries a zip.
+// nearer. Two arcs are zipped only as far as what lies between them goes round no handle. Returns the number
+// of zips. Cost: O(arcs² · points) distance queries a joint, first for all, then a zip for those beside it.
+// Throws UsageError, Cancelled.
 Index zip_arcs(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
-               const ZipOptions& options);
+               const ZipOptions& options, const CrossingLabels& crossings = {},
+               const Execution& execution = {});
 
 }  // namespace mspskel
 

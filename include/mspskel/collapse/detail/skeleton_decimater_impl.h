@@ -23,6 +23,7 @@ MSPSKEL_INLINE SkeletonDecimater::SkeletonDecimater(SkeletonComplex complex, std
     throw UsageError("merging sets: there must be one for every vertex");
   nodes_.resize(sets_.size());
   parent_.assign(sets_.size(), kNone);
+  from_parent_.resize(sets_.size());
   state_.assign(static_cast<std::size_t>(complex_.edge_capacity()), State::kQueued);
   for (Index v = 0; v < complex_.vertex_capacity(); ++v) {
     refresh(v);
@@ -192,6 +193,7 @@ MSPSKEL_INLINE bool SkeletonDecimater::try_collapse(Index e, bool allow_parallel
   const bool keep_first = outranks(first, second);
   const Index kept = keep_first ? first : second, gone = keep_first ? second : first;
   const bool flat = complex_.face_count(e) == 0;
+  CocycleLabel way = complex_.label(complex_.dart_from(e, kept));
   const CollapseRefusal refusal = complex_.collapse(e, kept, allow_parallel);
   if (refusal != CollapseRefusal::kAllowed) {
     ++(refusal == CollapseRefusal::kLoop ? counts_.refused_loop : counts_.refused_labels);
@@ -202,6 +204,7 @@ MSPSKEL_INLINE bool SkeletonDecimater::try_collapse(Index e, bool allow_parallel
   if (flat) ++counts_.one_dimensional_collapses;
   sets_[kept].merge(sets_[gone]);
   parent_[gone] = kept;
+  from_parent_[gone] = std::move(way);
   nodes_[kept].revision += nodes_[gone].revision + 1;
   refresh(kept);
   // A merged edge may have gained the faces that make it collapsible again.
@@ -317,10 +320,15 @@ MSPSKEL_INLINE CollapsedSkeleton SkeletonDecimater::result() const {
   CollapsedSkeleton skeleton;
   skeleton.counts = counts_;
   std::vector<Index> number(sets_.size(), kNone), parent(parent_);
+  std::vector<CocycleLabel> way(from_parent_);
+  // The vertices between v and its root become children of the root.
+  std::vector<Index> path;
   const auto root = [&](Index v) {
-    while (parent[v] != kNone) {
-      if (parent[parent[v]] != kNone) parent[v] = parent[parent[v]];
-      v = parent[v];
+    path.clear();
+    for (; parent[v] != kNone; v = parent[v]) path.push_back(v);
+    for (std::size_t i = path.size(); i-- > 1;) {
+      parent[path[i - 1]] = v;
+      if (!way[path[i]].is_zero()) way[path[i - 1]] = way[path[i]] + way[path[i - 1]];
     }
     return v;
   };
@@ -335,6 +343,7 @@ MSPSKEL_INLINE CollapsedSkeleton SkeletonDecimater::result() const {
     }
     skeleton.node_of_vertex[v] = number[node];
   }
+  skeleton.label_of_vertex = std::move(way);
   skeleton.edges = detail::collapsed_edges(complex_, number);
   return skeleton;
 }

@@ -9,6 +9,7 @@
 #include "mspskel/base/linkage.h"
 #include "mspskel/collapse/complex_topology.h"
 #include "mspskel/collapse/crossing_labels.h"
+#include "mspskel/collapse/detail/homology_generators.h"
 #include "mspskel/mesh/mesh_report.h"
 #include "mspskel/mesh/self_intersection.h"
 

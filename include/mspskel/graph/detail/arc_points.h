@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "mspskel/collapse/crossing_labels.h"
 #include "mspskel/graph/arc_graph.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
 
@@ -55,12 +56,14 @@ struct ArcPoints {
   Index count() const { return static_cast<Index>(x.size()); }
 };
 
-// The arc at even steps; where a step would cut a corner through the surface, the corner stays between.
+// The arc at even steps; where a step would cut a corner through the surface or round a handle, the corner
+// stays between.
 inline std::vector<Vector3> resampled_inside(const Arc& arc, double step,
-                                             const BoundingVolumeHierarchy& solid) {
+                                             const BoundingVolumeHierarchy& solid,
+                                             const CrossingLabels& crossings) {
   const std::vector<Vector3> even = resampled(arc, step);
   const double share = arc_length(arc) / static_cast<double>(even.size() - 1);
-  std::vector<Vector3> points{even.front()};
+  std::vector<Vector3> points{even.front()}, cut;
   std::size_t corner = 0;
   double walked = 0;  // from the start to the corner
   const auto pass = [&] {
@@ -70,19 +73,28 @@ inline std::vector<Vector3> resampled_inside(const Arc& arc, double step,
   for (std::size_t k = 1; k < even.size(); ++k) {
     const double from = share * static_cast<double>(k - 1), to = share * static_cast<double>(k);
     while (corner + 1 < arc.points.size() && walked <= from) pass();
-    if (solid.segment_crosses(even[k - 1], even[k]))
-      for (; corner + 1 < arc.points.size() && walked < to; pass()) points.push_back(arc.points[corner]);
+    cut.assign(1, even[k - 1]);
+    for (; corner + 1 < arc.points.size() && walked < to; pass()) cut.push_back(arc.points[corner]);
+    cut.push_back(even[k]);
+    if (solid.segment_crosses(even[k - 1], even[k]) || crossings.goes_round(cut))
+      points.insert(points.end(), cut.begin() + 1, cut.end() - 1);
     points.push_back(even[k]);
   }
   return points;
 }
 
 // The move of every point towards its goal, shortened until no edge of the graph meets the surface that did
-// not before, and no piece of the graph has left the solid as a whole.
+// not before, none goes round a handle on its way, and no piece of the graph has left the solid as a whole.
 class InsideMove {
  public:
-  InsideMove(ArcPoints& points, const BoundingVolumeHierarchy& solid, const std::vector<Vector3>& goal)
-      : points_(points), solid_(solid), goal_(goal), share_(points.x.size(), 1.0), cuts_(points.x.size(), 0) {
+  InsideMove(ArcPoints& points, const BoundingVolumeHierarchy& solid, const std::vector<Vector3>& goal,
+             const CrossingLabels& crossings)
+      : points_(points),
+        solid_(solid),
+        goal_(goal),
+        crossings_(crossings),
+        share_(points.x.size(), 1.0),
+        cuts_(points.x.size(), 0) {
     for (const auto& chain : points.chains)
       for (std::size_t i = 1; i < chain.size(); ++i) edges_.push_back({chain[i - 1], chain[i]});
     asked_.assign(edges_.size(), -1);
@@ -110,7 +122,9 @@ class InsideMove {
       // An edge that crossed nothing is asked again if the share of one of its ends was cut.
       if (asked_[e] == cuts_[a] + cuts_[b]) continue;
       asked_[e] = cuts_[a] + cuts_[b];
-      if (!solid_.segment_crosses(moved(a), moved(b))) continue;
+      if (!solid_.segment_crosses(moved(a), moved(b)) &&
+          !crossings_.goes_round({points_.x[a], points_.x[b], moved(b), moved(a)}))
+        continue;
       for (const Index i : {a, b}) cut(i);
       changed = true;
     }
@@ -143,6 +157,7 @@ class InsideMove {
   ArcPoints& points_;
   const BoundingVolumeHierarchy& solid_;
   const std::vector<Vector3>& goal_;
+  const CrossingLabels& crossings_;
   std::vector<double> share_;
   std::vector<int> cuts_;   // how often a point's share was cut
   std::vector<int> asked_;  // per edge, the cuts of its ends when it was last asked
@@ -151,8 +166,8 @@ class InsideMove {
 };
 
 inline void move_inside(ArcPoints& points, const BoundingVolumeHierarchy& solid,
-                        const std::vector<Vector3>& goal) {
-  InsideMove(points, solid, goal).run();
+                        const std::vector<Vector3>& goal, const CrossingLabels& crossings) {
+  InsideMove(points, solid, goal, crossings).run();
 }
 
 }  // namespace detail

@@ -134,6 +134,7 @@ class BranchFilter {
       node = number[node];
     }
     out.edges = collapsed_edges(complex_, number);
+    out.label_of_vertex.clear();
   }
 
   BranchFilterOptions options_;

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/SparseCholesky>
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "mspskel/base/even_directions.h"
 #include "mspskel/base/linkage.h"
@@ -94,6 +96,14 @@ inline Pull section_pull(const BoundingVolumeHierarchy& solid, const Vector3& x,
           thickness * thickness};
 }
 
+template <class Ordering>
+std::optional<Eigen::MatrixX3d> solved_by(const Eigen::SparseMatrix<double>& matrix,
+                                          const Eigen::MatrixX3d& right) {
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Ordering> solver(matrix);
+  if (solver.info() != Eigen::Success) return std::nullopt;
+  return Eigen::MatrixX3d(solver.solve(right));
+}
+
 // Minimises Σ w|x − goal|² + Σ μ|x − mean of neighbours|² with μ = smoothness · stiffness.
 inline std::vector<Vector3> solve_positions(const ArcPoints& points, const std::vector<Pull>& pulls,
                                             double smoothness) {
@@ -123,10 +133,13 @@ inline std::vector<Vector3> solve_positions(const ArcPoints& points, const std::
   }
   Eigen::SparseMatrix<double> matrix(n, n);
   matrix.setFromTriplets(entries.begin(), entries.end());
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::NaturalOrdering<int>> solver(
-      matrix);
-  if (solver.info() != Eigen::Success) return points.x;
-  const Eigen::MatrixX3d solution = solver.solve(right);
+  constexpr Index kFewJoints = 128;  // among more than that, elimination fills in
+  const auto joints = std::count(points.kind.begin(), points.kind.end(), ArcPoints::Kind::kJoint);
+  const std::optional<Eigen::MatrixX3d> solved = joints <= kFewJoints
+                                                     ? solved_by<Eigen::NaturalOrdering<int>>(matrix, right)
+                                                     : solved_by<Eigen::AMDOrdering<int>>(matrix, right);
+  if (!solved) return points.x;
+  const Eigen::MatrixX3d& solution = *solved;
   std::vector<Vector3> x(points.x.size());
   for (Index i = 0; i < n; ++i) x[i] = solution.row(row(i)).transpose();
   return x;
@@ -172,11 +185,12 @@ MSPSKEL_INLINE VisibleSection visible_section(const BoundingVolumeHierarchy& sol
 }
 
 MSPSKEL_INLINE void center_arcs(ArcGraph& graph, const BoundingVolumeHierarchy& solid,
-                                const CenteringOptions& options, const Execution& execution) {
+                                const CenteringOptions& options, const Execution& execution,
+                                const CrossingLabels& crossings) {
   validate(options);
   const auto resample = [&] {
     for (Arc& arc : graph.arcs)
-      if (arc.alive) arc.points = detail::resampled_inside(arc, options.step, solid);
+      if (arc.alive) arc.points = detail::resampled_inside(arc, options.step, solid, crossings);
   };
   resample();
   for (int round = 0; round < options.rounds; ++round) {
@@ -202,7 +216,7 @@ MSPSKEL_INLINE void center_arcs(ArcGraph& graph, const BoundingVolumeHierarchy& 
     std::vector<Vector3> goal(points.x);
     for (Index i = 0; i < points.count(); ++i)
       if (solution[i].allFinite()) goal[i] += options.damping * (solution[i] - points.x[i]);
-    detail::move_inside(points, solid, goal);
+    detail::move_inside(points, solid, goal, crossings);
     points.write_back(graph);
   }
 }

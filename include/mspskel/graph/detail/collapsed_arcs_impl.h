@@ -40,12 +40,12 @@ class ArcTracer {
 
   ArcGraph trace() {
     for (const Index i : order_)
-      if (at_[i].size() != 2) hub_[i] = graph_.add_hub(collapsed_.nodes[i].position);
+      if (at_[i].size() != 2) add_hub(i);
     for (const Index i : order_)
       if (hub_[i] != kNone) walk_from(i);
     for (const Index i : order_)
       if (hub_[i] == kNone && arc_[i] == kNone) {
-        hub_[i] = graph_.add_hub(collapsed_.nodes[i].position);
+        add_hub(i);
         walk_from(i);
       }
     graph_.arc_of_vertex.assign(collapsed_.node_of_vertex.size(), kNone);
@@ -58,8 +58,14 @@ class ArcTracer {
     }
     return std::move(graph_);
   }
+  ArcTubes& tubes() { return tubes_; }
 
  private:
+  void add_hub(Index node) {
+    hub_[node] = graph_.add_hub(collapsed_.nodes[node].position);
+    tubes_.node_of_hub.push_back(node);
+  }
+
   Index other_end(Index e, Index node) const {
     return collapsed_.edges[e].first == node ? collapsed_.edges[e].second : collapsed_.edges[e].first;
   }
@@ -70,10 +76,15 @@ class ArcTracer {
       Arc arc;
       arc.hub[0] = hub_[start];
       arc.points.push_back(collapsed_.nodes[start].position);
+      ArcTube tube;
+      tube.nodes.push_back(start);
       Index e = first, node = start;
       while (true) {
         used_[e] = true;
+        const CollapsedEdge& edge = collapsed_.edges[e];
+        tube.step.push_back(edge.first == node ? edge.label : -edge.label);
         node = other_end(e, node);
+        tube.nodes.push_back(node);
         arc.points.push_back(collapsed_.nodes[node].position);
         if (hub_[node] != kNone) break;
         arc_[node] = graph_.arc_count();
@@ -81,6 +92,7 @@ class ArcTracer {
       }
       arc.hub[1] = hub_[node];
       graph_.arcs.push_back(std::move(arc));
+      tubes_.tube.push_back(std::move(tube));
     }
   }
 
@@ -90,6 +102,7 @@ class ArcTracer {
   std::vector<Index> hub_, arc_;
   std::vector<bool> used_;
   ArcGraph graph_;
+  ArcTubes tubes_;
 };
 
 // Two arcs with the same ends and no inner point between them would be one edge: all of them get inner
@@ -157,6 +170,13 @@ inline void average_over_map(const SurfaceSnapshot& surface, const std::vector<d
 
 MSPSKEL_INLINE ArcGraph make_arc_graph(const CollapsedSkeleton& collapsed) {
   return detail::ArcTracer(collapsed).trace();
+}
+
+MSPSKEL_INLINE ArcGraph make_arc_graph(const CollapsedSkeleton& collapsed, ArcTubes& tubes) {
+  detail::ArcTracer tracer(collapsed);
+  ArcGraph graph = tracer.trace();
+  tubes = std::move(tracer.tubes());
+  return graph;
 }
 
 MSPSKEL_INLINE CurveSkeleton make_curve_skeleton(const ArcGraph& graph, const SurfaceSnapshot& surface,

@@ -31,7 +31,8 @@ inline std::size_t least_points(const ArcGraph& graph, Index arc) {
 
 }  // namespace detail
 
-MSPSKEL_INLINE Index limit_nodes(ArcGraph& graph, const BoundingVolumeHierarchy& solid, Index nodes) {
+MSPSKEL_INLINE Index limit_nodes(ArcGraph& graph, const BoundingVolumeHierarchy& solid, Index nodes,
+                                 const CrossingLabels& crossings) {
   // Per arc and point: how far it lies off its neighbours' chord; infinite where it has to stay.
   constexpr double kStays = std::numeric_limits<double>::infinity();
   std::vector<std::vector<double>> offset(graph.arcs.size());
@@ -62,7 +63,8 @@ MSPSKEL_INLINE Index limit_nodes(ArcGraph& graph, const BoundingVolumeHierarchy&
     }
     if (arc == kNone) break;
     auto& p = graph.arcs[arc].points;
-    if (solid.segment_crosses(p[point - 1], p[point + 1])) {
+    if (solid.segment_crosses(p[point - 1], p[point + 1]) ||
+        crossings.goes_round({p[point - 1], p[point], p[point + 1]})) {
       offset[arc][point] = kStays;
       continue;
     }

@@ -19,7 +19,7 @@ class ArcRefinement {
  public:
   ArcRefinement(ArcGraph& graph, const SurfaceSnapshot& surface, const SurfaceSnapshot& input,
                 const BoundingVolumeHierarchy& solid, const VertexSlices& slices, std::vector<LimbTip> tips,
-                const RefinementOptions& options, const Execution& execution)
+                const RefinementOptions& options, const Execution& execution, const ArcClasses& classes)
       : graph_(graph),
         surface_(surface),
         input_(input),
@@ -28,6 +28,7 @@ class ArcRefinement {
         tips_(std::move(tips)),
         options_(options),
         execution_(execution),
+        classes_(classes),
         type_(homotopy_type(graph)),
         inner_(surface, solid, execution),
         draft_(options.centering),
@@ -85,6 +86,7 @@ class ArcRefinement {
       counts_.pruned += removed;
       counts_.routing.unroutable -= std::min(removed, counts_.routing.unroutable);
     }
+    counts_.classes = route_by_class(graph_, classes_.tubes, input_, solid_, classes_.crossings, execution_);
     keep_type("routing inside");
   }
   void aim() {
@@ -104,22 +106,22 @@ class ArcRefinement {
   }
   void tighten() {
     tighten_in_walls(graph_, surface_, solid_, find_shells(surface_, solid_, slices_), inner_,
-                     options_.centering.step);
+                     options_.centering.step, classes_.crossings);
     keep_type("tightening in walls");
   }
   void prune() {
     counts_.pruned += prune_branches(graph_, tips_);
     keep_type("pruning");
-    counts_.joints_merged += merge_joints(graph_, solid_, options_.joint_overlap);
+    counts_.joints_merged += merge_joints(graph_, solid_, options_.joint_overlap, classes_.crossings);
     dissolve_through_hubs(graph_);
     keep_type("merging of joints");
   }
   void center(const CenteringOptions& centering) {
-    center_arcs(graph_, solid_, centering, execution_);
+    center_arcs(graph_, solid_, centering, execution_, classes_.crossings);
     keep_type("centring");
   }
   void zip() {
-    counts_.zips += zip_arcs(graph_, surface_, solid_, options_.zip);
+    counts_.zips += zip_arcs(graph_, surface_, solid_, options_.zip, classes_.crossings, execution_);
     keep_type("zipping");
   }
   void complete() {
@@ -146,6 +148,7 @@ class ArcRefinement {
   std::vector<LimbTip> tips_;  // more as limbs are completed
   const RefinementOptions& options_;
   const Execution& execution_;
+  const ArcClasses& classes_;
   const ArcGraphType type_;
   InnerGraph inner_;
   CenteringOptions draft_, touch_up_;
@@ -158,9 +161,10 @@ MSPSKEL_INLINE RefinementCounts refine_arcs(ArcGraph& graph, const SurfaceSnapsh
                                             const SurfaceSnapshot& input,
                                             const BoundingVolumeHierarchy& solid, const VertexSlices& slices,
                                             std::vector<LimbTip> tips, const RefinementOptions& options,
-                                            const Execution& execution) {
+                                            const Execution& execution, const ArcClasses& classes) {
   validate(options);
-  return detail::ArcRefinement(graph, surface, input, solid, slices, std::move(tips), options, execution)
+  return detail::ArcRefinement(graph, surface, input, solid, slices, std::move(tips), options, execution,
+                               classes)
       .run();
 }
 

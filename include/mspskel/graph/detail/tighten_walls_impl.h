@@ -52,11 +52,17 @@ inline std::vector<std::uint8_t> in_tubes(const std::vector<Vector3>& points,
 
 // The polyline without the ways out and back that a straight stretch of at most `reach` points saves.
 inline std::vector<Vector3> cut_short(const std::vector<Vector3>& points,
-                                      const BoundingVolumeHierarchy& solid, std::size_t reach) {
+                                      const BoundingVolumeHierarchy& solid, std::size_t reach,
+                                      const CrossingLabels& crossings) {
+  const auto saves = [&](std::size_t from, std::size_t to) {
+    return !solid.segment_crosses(points[from], points[to]) &&
+           !crossings.goes_round({points.begin() + static_cast<std::ptrdiff_t>(from),
+                                  points.begin() + static_cast<std::ptrdiff_t>(to) + 1});
+  };
   std::vector<Vector3> kept{points.front()};
   for (std::size_t i = 0; i + 1 < points.size();) {
     std::size_t next = std::min(i + reach, points.size() - 1);
-    while (next > i + 1 && solid.segment_crosses(points[i], points[next])) --next;
+    while (next > i + 1 && !saves(i, next)) --next;
     kept.push_back(points[next]);
     i = next;
   }
@@ -66,7 +72,8 @@ inline std::vector<Vector3> cut_short(const std::vector<Vector3>& points,
 // Draws a polyline in a wall tight between its ends, which stay.
 class TightLine {
  public:
-  TightLine(const BoundingVolumeHierarchy& solid, double step) : solid_(solid), step_(step) {}
+  TightLine(const BoundingVolumeHierarchy& solid, double step, const CrossingLabels& crossings)
+      : solid_(solid), step_(step), crossings_(crossings) {}
 
   std::vector<Vector3> tighten(std::vector<Vector3> points) const {
     for (const double step : {4 * step_, step_}) {  // few points go far, many follow the wall
@@ -77,8 +84,8 @@ class TightLine {
       for (int pass = 0; pass < kPasses; ++pass) {
         ArcGraph line;
         Arc arc;
-        arc.points = cut_short(points, solid_, reach);
-        arc.points = resampled_inside(arc, step, solid_);
+        arc.points = cut_short(points, solid_, reach, crossings_);
+        arc.points = resampled_inside(arc, step, solid_, crossings_);
         if (arc.points.size() < 3) break;
         arc.hub = {line.add_hub(arc.points.front()), line.add_hub(arc.points.back())};
         line.arcs.push_back(std::move(arc));
@@ -106,7 +113,7 @@ class TightLine {
       const double reach = kReach * 2 * solid_.distance(before[i]), length = way.norm();
       if (length > reach) goal[i] = before[i] + reach / length * way;
     }
-    move_inside(points, solid_, goal);
+    move_inside(points, solid_, goal, crossings_);
     std::vector<Vector3> offset(points.x.size(), Vector3::Zero());
     for (std::size_t i = 2; i < offset.size(); ++i) {  // the two hubs come first
       const Vector3& x = points.x[i];
@@ -118,7 +125,7 @@ class TightLine {
     }
     offset = diffused(points, offset, kOffsetTime);
     for (std::size_t i = 0; i < goal.size(); ++i) goal[i] = points.x[i] + offset[i];
-    move_inside(points, solid_, goal);
+    move_inside(points, solid_, goal, crossings_);
     double longest = 0;
     for (std::size_t i = 0; i < goal.size(); ++i)
       longest = std::max(longest, (points.x[i] - before[i]).norm());
@@ -152,6 +159,7 @@ class TightLine {
 
   const BoundingVolumeHierarchy& solid_;
   const double step_;
+  const CrossingLabels& crossings_;
 };
 
 // Lets a loop begin in the middle of its longest tube; false if it has none.
@@ -180,13 +188,14 @@ inline bool begin_in_tube(ArcGraph& graph, Index arc, const BoundingVolumeHierar
 class WallArcs {
  public:
   WallArcs(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
-           const std::vector<bool>& shells, InnerGraph& inner, double step)
+           const std::vector<bool>& shells, InnerGraph& inner, double step, const CrossingLabels& crossings)
       : graph_(graph),
         surface_(surface),
         solid_(solid),
         shells_(shells),
         inner_(inner),
-        line_(solid, step),
+        crossings_(crossings),
+        line_(solid, step, crossings),
         step_(step),
         component_(hub_components(graph, surface)),
         ends_(shells.size()),
@@ -200,7 +209,7 @@ class WallArcs {
       const Index c = arc.alive ? component_[arc.hub[0]] : kNone;
       if (c == kNone || !shells_[c]) continue;
       for (const Index hub : arc.hub) has_leaf_[c] = has_leaf_[c] || at[hub].size() == 1;
-      arc.points = resampled_inside(arc, step_, solid_);
+      arc.points = resampled_inside(arc, step_, solid_, crossings_);
       const bool ring = arc.hub[0] == arc.hub[1] && at[arc.hub[0]].size() == 2;
       if (ring && !begin_in_tube(graph_, a, solid_)) continue;
       tighten(a, c);
@@ -274,6 +283,7 @@ class WallArcs {
   const BoundingVolumeHierarchy& solid_;
   const std::vector<bool>& shells_;
   InnerGraph& inner_;
+  const CrossingLabels& crossings_;
   const TightLine line_;
   const double step_;
   const std::vector<Index> component_;      // of each hub
@@ -285,9 +295,10 @@ class WallArcs {
 
 MSPSKEL_INLINE Index tighten_in_walls(ArcGraph& graph, const SurfaceSnapshot& surface,
                                       const BoundingVolumeHierarchy& solid, const std::vector<bool>& shells,
-                                      detail::InnerGraph& inner, double step) {
+                                      detail::InnerGraph& inner, double step,
+                                      const CrossingLabels& crossings) {
   if (std::find(shells.begin(), shells.end(), true) == shells.end()) return 0;
-  return detail::WallArcs(graph, surface, solid, shells, inner, step).run();
+  return detail::WallArcs(graph, surface, solid, shells, inner, step, crossings).run();
 }
 
 }  // namespace mspskel

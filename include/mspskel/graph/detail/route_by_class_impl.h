@@ -1,0 +1,353 @@
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <optional>
+#include <queue>
+#include <tuple>
+#include <unordered_map>
+#include <utility>
+
+#include "mspskel/base/linkage.h"
+#include "mspskel/graph/detail/inward_chord.h"
+
+namespace mspskel {
+namespace detail {
+
+// Points inside the solid for each vertex of the surface: the middle of its inward chord, and one just below
+// the surface. Found when first asked for.
+class ChordPoints {
+ public:
+  enum Layer { kMiddle, kShallow };
+  struct Point {
+    Vector3 x = Vector3::Zero();
+    double clearance = 0.0;  // a lower bound of the distance to the surface; 0: there is no such point
+    CocycleLabel from_vertex;
+  };
+
+  ChordPoints(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
+              const CrossingLabels& crossings)
+      : surface_(surface), solid_(solid), crossings_(crossings) {}
+
+  const Point& operator()(Index v, Layer layer) {
+    const auto [it, fresh] = points_.try_emplace(2 * std::int64_t{v} + layer);
+    if (fresh) place(v, layer, it->second);
+    return it->second;
+  }
+
+ private:
+  void place(Index v, Layer layer, Point& point) {
+    constexpr double kShallowShare = 0.05, kOfEdge = 0.02;
+    if (surface_.vertex_halfedge[v] == kNone) return;
+    const auto chord = inward_chord(surface_, solid_, v);
+    if (!chord) return;
+    const Vector3& position = surface_.position[v];
+    double depth = 0.5 * chord->length;
+    if (layer == kShallow)
+      for_each_neighbour(surface_, v, [&](Index w) {
+        depth = std::min(
+            {depth, kShallowShare * chord->length, kOfEdge * (surface_.position[w] - position).norm()});
+      });
+    if (!(depth > 0)) return;
+    point.x = chord->start - depth * surface_.normal[v];
+    if (!solid_.inside(point.x)) return;
+    point.clearance = std::min(depth, solid_.closest(point.x, depth).distance);
+    point.from_vertex = crossings_(position, point.x);
+  }
+
+  const SurfaceSnapshot& surface_;
+  const BoundingVolumeHierarchy& solid_;
+  const CrossingLabels& crossings_;
+  std::unordered_map<std::int64_t, Point> points_;
+};
+
+// Arcs that are left when leaf arcs are taken away for as long as there are any.
+inline std::vector<bool> arcs_of_cycles(const ArcGraph& graph) {
+  std::vector<bool> in(graph.arcs.size());
+  for (std::size_t a = 0; a < in.size(); ++a) in[a] = graph.arcs[a].alive;
+  const auto at = graph.incidence();
+  std::vector<std::size_t> degree(at.size());
+  std::vector<Index> leaves;
+  for (std::size_t h = 0; h < at.size(); ++h) {
+    degree[h] = at[h].size();
+    if (degree[h] == 1) leaves.push_back(static_cast<Index>(h));
+  }
+  while (!leaves.empty()) {
+    const Index leaf = leaves.back();
+    leaves.pop_back();
+    for (const Index a : at[leaf]) {
+      if (!in[a]) continue;
+      in[a] = false;
+      const Index other = graph.arcs[a].hub[0] == leaf ? graph.arcs[a].hub[1] : graph.arcs[a].hub[0];
+      if (--degree[other] == 1) leaves.push_back(other);
+    }
+  }
+  return in;
+}
+
+class TubeRouter {
+ public:
+  TubeRouter(ArcGraph& graph, const CollapseTubes& tubes, const SurfaceSnapshot& surface,
+             const BoundingVolumeHierarchy& solid, const CrossingLabels& crossings)
+      : graph_(graph),
+        tubes_(tubes),
+        surface_(surface),
+        solid_(solid),
+        crossings_(crossings),
+        points_(surface, solid, crossings),
+        hubs_(graph.hub_position.size()) {
+    for (Index i = 0; i < crossings.rank(); ++i) all_regions_ = all_regions_ && crossings.is_region(i);
+    index_nodes();
+  }
+
+  ClassRouting run(const Execution& execution) {
+    const std::vector<bool> in_cycle = arcs_of_cycles(graph_);
+    const auto count = std::min(graph_.arcs.size(), tubes_.arcs.tube.size());
+    std::vector<Index> arcs;
+    for (std::size_t a = 0; a < count; ++a)
+      if (in_cycle[a]) arcs.push_back(static_cast<Index>(a));
+    for (const Index a : arcs)
+      for (const Index hub : graph_.arcs[a].hub) settle(hub);
+    ClassRouting result;
+    result.checked = static_cast<Index>(arcs.size());
+    for (std::size_t i = 0; i < arcs.size(); ++i) {
+      report_progress(execution.progress, "arcs", static_cast<double>(i) / static_cast<double>(arcs.size()));
+      if (is_right(arcs[i])) continue;
+      execution_ = &execution;
+      ++(lead(arcs[i]) ? result.routed : result.abandoned);
+    }
+    return result;
+  }
+
+ private:
+  // A hub and a way to it from the origin of its node.
+  struct Hub {
+    bool settled = false;
+    CocycleLabel from_origin;
+    std::vector<Index> near;  // vertices of its part, the nearest first
+  };
+  // A point of a vertex at a place along the tube.
+  struct State {
+    Index place, vertex;
+    ChordPoints::Layer layer;
+  };
+  struct Record {
+    State state;
+    double cost;
+    std::int64_t before;  // key of the state before it, or kStart
+    bool done;
+  };
+  static constexpr std::int64_t kStart = -1;
+  static constexpr std::size_t kNear = 64;
+
+  void index_nodes() {
+    Index nodes = 0;
+    for (const Index node : tubes_.node_of_vertex) nodes = std::max(nodes, node + 1);
+    begin_.assign(static_cast<std::size_t>(nodes) + 1, 0);
+    for (const Index node : tubes_.node_of_vertex)
+      if (node != kNone) ++begin_[node + 1];
+    for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
+    vertices_.resize(static_cast<std::size_t>(begin_.back()));
+    std::vector<Index> fill(begin_.begin(), begin_.end() - 1);
+    for (std::size_t v = 0; v < tubes_.node_of_vertex.size(); ++v)
+      if (const Index node = tubes_.node_of_vertex[v]; node != kNone)
+        vertices_[fill[node]++] = static_cast<Index>(v);
+  }
+
+  // Whether labels agree where cocycles are regions.
+  bool same(const CocycleLabel& a, const CocycleLabel& b) const {
+    if (all_regions_ || a == b) return a == b;
+    const CocycleLabel difference = a - b;
+    return std::none_of(difference.entries().begin(), difference.entries().end(),
+                        [&](const CocycleLabel::Entry& e) { return crossings_.is_region(e.index); });
+  }
+
+  // Finds a way from the origin of the hub's node to the hub: over the surface to the nearest vertex of its
+  // part that sees the hub. Where none does the hub moves to a chord of its part.
+  void settle(Index h) {
+    Hub& hub = hubs_[h];
+    if (hub.settled) return;
+    hub.settled = true;
+    const Index node = tubes_.arcs.node_of_hub[h];
+    const Vector3& x = graph_.hub_position[h];
+    std::vector<std::pair<double, Index>> all;
+    for (Index i = begin_[node]; i < begin_[node + 1]; ++i)
+      all.push_back({(surface_.position[vertices_[i]] - x).squaredNorm(), vertices_[i]});
+    const auto end = all.begin() + static_cast<std::ptrdiff_t>(std::min(all.size(), kNear));
+    std::partial_sort(all.begin(), end, all.end());
+    for (auto it = all.begin(); it != end; ++it) hub.near.push_back(it->second);
+    if (solid_.inside(x))
+      for (const Index v : hub.near) {
+        const Vector3 start = surface_.position[v] - 1e-7 * surface_.normal[v];
+        if (!solid_.inside(start) || solid_.segment_crosses(start, x)) continue;
+        hub.from_origin = tubes_.to_vertex[v] + crossings_(surface_.position[v], x);
+        return;
+      }
+    for (const Index v : hub.near)
+      for (const auto layer : {ChordPoints::kMiddle, ChordPoints::kShallow}) {
+        const ChordPoints::Point& point = points_(v, layer);
+        if (point.clearance == 0) continue;
+        graph_.move_hub(h, point.x);
+        hub.from_origin = tubes_.to_vertex[v] + point.from_vertex;
+        return;
+      }
+  }
+
+  CocycleLabel wanted(Index a) const {
+    const Arc& arc = graph_.arcs[a];
+    CocycleLabel label = hubs_[arc.hub[1]].from_origin - hubs_[arc.hub[0]].from_origin;
+    for (const CocycleLabel& step : tubes_.arcs.tube[a].step) label += step;
+    return label;
+  }
+
+  bool is_right(Index a) const {
+    const std::vector<Vector3>& points = graph_.arcs[a].points;
+    for (std::size_t i = 1; i < points.size(); ++i)
+      if (solid_.segment_crosses(points[i - 1], points[i])) return false;
+    return same(crossings_.along(points), wanted(a));
+  }
+
+  std::int64_t key(const State& s) const {
+    return (std::int64_t{s.place} * surface_.vertex_count() + s.vertex) * 2 + s.layer;
+  }
+
+  // Whether the place along the tube may be had at vertex w after a step over half-edge h.
+  bool follows(const ArcTube& tube, Index place, Index h, Index next) const {
+    if (next < 0 || next >= static_cast<Index>(tube.nodes.size())) return false;
+    const Index v = surface_.origin[h], w = surface_.target(h);
+    if (tube.nodes[next] != tubes_.node_of_vertex[w]) return false;
+    CocycleLabel label = tubes_.to_vertex[v] + tubes_.halfedge[h] - tubes_.to_vertex[w];
+    if (next > place) label -= tube.step[place];
+    if (next < place) label += tube.step[next];
+    return label.is_zero();
+  }
+
+  // Whether a straight step between two points stays inside and has the class of the edge.
+  bool step_is_right(const State& from, const State& to, Index h) {
+    const ChordPoints::Point a = points_(from.vertex, from.layer), &b = points_(to.vertex, to.layer);
+    if (solid_.segment_crosses(a.x, b.x)) return false;
+    const CocycleLabel edge = h == kNone ? CocycleLabel{} : tubes_.halfedge[h];
+    return same(a.from_vertex + crossings_(a.x, b.x), edge + b.from_vertex);
+  }
+
+  // The points of the hub's part that it sees, in its class, with what it costs to get there.
+  std::vector<std::pair<double, State>> entries(Index h, Index place) {
+    constexpr std::size_t kWanted = 8;
+    std::vector<std::pair<double, State>> result;
+    const Vector3 x = graph_.hub_position[h];
+    for (const auto layer : {ChordPoints::kMiddle, ChordPoints::kShallow}) {
+      for (const Index v : hubs_[h].near) {
+        if (result.size() >= kWanted) return result;
+        const ChordPoints::Point& point = points_(v, layer);
+        if (point.clearance == 0 || solid_.segment_crosses(x, point.x)) continue;
+        const CocycleLabel label = tubes_.to_vertex[v] + point.from_vertex + crossings_(point.x, x);
+        if (same(label, hubs_[h].from_origin))
+          result.push_back({(point.x - x).norm() / point.clearance, {place, v, layer}});
+      }
+    }
+    return result;
+  }
+
+  using Way = std::tuple<double, std::int64_t, std::int64_t>;  // cost, key, key before
+
+  bool lead(Index a) {
+    const ArcTube& tube = tubes_.arcs.tube[a];
+    Arc& arc = graph_.arcs[a];
+    records_.clear();
+    queue_ = {};
+    for (const auto& [cost, state] : entries(arc.hub[0], 0)) push(state, cost, kStart, kNone);
+    std::unordered_map<std::int64_t, double> goal;
+    for (const auto& [cost, state] : entries(arc.hub[1], static_cast<Index>(tube.nodes.size()) - 1))
+      goal.emplace(key(state), cost);
+    if (goal.empty()) return false;
+    for (Index popped = 0; !queue_.empty(); ++popped) {
+      if (popped % 1024 == 0) report_progress(execution_->progress, "arcs", 0.5);
+      const Step step = queue_.top();
+      queue_.pop();
+      Record& record = records_[key(step.to)];
+      // Whether a step stays inside is asked where it would be the cheapest, which few steps are.
+      if (record.done ||
+          (step.before != kStart && !step_is_right(records_[step.before].state, step.to, step.halfedge)))
+        continue;
+      record = {step.to, step.cost, step.before, true};
+      if (goal.count(key(step.to)) > 0) {
+        write(arc, key(step.to));
+        return true;
+      }
+      expand(tube, step.to, step.cost);
+    }
+    return false;
+  }
+
+  struct Step {
+    double cost;
+    State to;
+    std::int64_t before;
+    Index halfedge;  // kNone: between the two points of a vertex
+    std::int64_t order;
+    bool operator>(const Step& other) const {
+      return cost != other.cost ? cost > other.cost : order > other.order;
+    }
+  };
+
+  void push(const State& to, double cost, std::int64_t before, Index halfedge) {
+    queue_.push({cost, to, before, halfedge, static_cast<std::int64_t>(order_++)});
+  }
+
+  void expand(const ArcTube& tube, const State& from, double cost) {
+    const ChordPoints::Point here = points_(from.vertex, from.layer);
+    const std::int64_t before = key(from);
+    const auto step = [&](const State& to, Index h) {
+      const auto known = records_.find(key(to));
+      if (known != records_.end() && known->second.done) return;
+      const ChordPoints::Point& there = points_(to.vertex, to.layer);
+      if (there.clearance == 0) return;
+      const double length = (there.x - here.x).norm();
+      push(to, cost + length / std::max(std::min(here.clearance, there.clearance), 1e-9), before, h);
+    };
+    step({from.place, from.vertex,
+          from.layer == ChordPoints::kMiddle ? ChordPoints::kShallow : ChordPoints::kMiddle},
+         kNone);
+    const Index first = surface_.vertex_halfedge[from.vertex];
+    Index h = first;
+    do {
+      for (Index next = from.place - 1; next <= from.place + 1; ++next)
+        if (follows(tube, from.place, h, next)) step({next, surface_.target(h), from.layer}, h);
+      h = surface_.next_outgoing(h);
+    } while (h != first);
+  }
+
+  void write(Arc& arc, std::int64_t last) {
+    std::vector<Vector3> points{graph_.hub_position[arc.hub[1]]};
+    for (std::int64_t k = last; k != kStart; k = records_[k].before)
+      points.push_back(points_(records_[k].state.vertex, records_[k].state.layer).x);
+    points.push_back(graph_.hub_position[arc.hub[0]]);
+    std::reverse(points.begin(), points.end());
+    arc.points = std::move(points);
+  }
+
+  ArcGraph& graph_;
+  const CollapseTubes& tubes_;
+  const SurfaceSnapshot& surface_;
+  const BoundingVolumeHierarchy& solid_;
+  const CrossingLabels& crossings_;
+  const Execution* execution_ = nullptr;
+  bool all_regions_ = true;
+  ChordPoints points_;
+  std::vector<Hub> hubs_;
+  std::vector<Index> begin_, vertices_;  // of each node
+  std::unordered_map<std::int64_t, Record> records_;
+  std::priority_queue<Step, std::vector<Step>, std::greater<>> queue_;
+  std::int64_t order_ = 0;
+};
+
+}  // namespace detail
+
+MSPSKEL_INLINE ClassRouting route_by_class(ArcGraph& graph, const CollapseTubes& tubes,
+                                           const SurfaceSnapshot& input, const BoundingVolumeHierarchy& solid,
+                                           const CrossingLabels& crossings, const Execution& execution) {
+  if (crossings.rank() == 0) return {};
+  return detail::TubeRouter(graph, tubes, input, solid, crossings).run(execution);
+}
+
+}  // namespace mspskel
