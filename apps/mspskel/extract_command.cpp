@@ -108,6 +108,7 @@ Extraction extract_and_check(const ExtractSettings& settings, const Cancellation
   made.reported = !settings.report.empty() || settings.verbose || writes_json(settings);
 
   const Stopwatch checking;
+  if (!result.solid) result.solid = std::make_shared<const BoundingVolumeHierarchy>(result.surface);
   const TopologyCertificate certificate =
       certify(result.surface, result.cocycles, *result.solid, result.skeleton,
               made.reported ? CertificateDepth::kFull : CertificateDepth::kVerdict);

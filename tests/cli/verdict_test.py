@@ -38,6 +38,14 @@ class Check(ProgramTest):
         self.assertEqual(result.returncode, NO_SKELETON)
         self.assertIn(b"rank 0, not 1", result.stderr)
 
+    def test_cycle_that_goes_outside_is_told_as_that(self):
+        # Past the discs, crossings say nothing.
+        outside = [*self.LOCAL, (1, -1, 3)]
+        self.assertRegex(self.check(outside).stderr.decode(), "outside the solid, on 2 edges")
+        result = self.check(outside, None, "--least-inside", 0)
+        self.assertEqual(result.returncode, DONE, result.stderr)
+        self.assertIn(b"certificate  kept: 2 edges", result.stdout)
+
     def test_lost_cycle(self):
         result = self.check(self.ROUND, [(i, i + 1) for i in range(7)])
         self.assertEqual(result.returncode, NO_SKELETON)

@@ -28,8 +28,8 @@ struct PolylineGraph {
 
 enum class TopologyVerdict {
   kProved,  // every condition holds
-  kKept,    // b0, b1 and the rank are right, but something stands in the way of the proof
-  kFailed,  // b0 or b1 is wrong, or the cycles depend on each other
+  kKept,    // b0 and b1 are right, but something stands in the way of the proof
+  kFailed,  // b0 or b1 is wrong, or the cycles that lie inside depend on each other
 };
 
 // "proved", "kept", "failed".
@@ -64,7 +64,7 @@ struct TopologyCertificate {
   // Share of the length inside (of the component that each piece stands for, as a solid of its own); edges
   // that are not inside from end to end.
   double inside = 0.0;
-  Index edges_not_inside = 0;
+  Index edges_inside = 0, edges_not_inside = 0;
   std::optional<Vector3> outside_at;  // a place outside, normalised units; of edges that only graze the
                                       // surface, none may be found
 };
