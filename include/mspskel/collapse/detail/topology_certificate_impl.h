@@ -169,7 +169,7 @@ inline void measure_inside(const SolidHierarchies& solid, const PolylineGraph& g
       if (!certificate.outside_at) certificate.outside_at = graph.position[v];
     }
   if (lone_outside) ++certificate.edges_not_inside;
-  certificate.inside = total > 0 ? inside / total : (lone_outside ? 0.0 : 1.0);
+  certificate.inside = total > 0 ? std::min(1.0, inside / total) : (lone_outside ? 0.0 : 1.0);
 }
 
 // What stands in the way of a proof, most serious first; empty if nothing does.
