@@ -81,26 +81,16 @@ inline FuzzedMesh polyhedron(Choices& choices) {
 
 // Unit cells whose planes stand at random places: walls, plates and bars of any thickness.
 inline PolygonSoup warped(PolygonSoup soup, int fine, Choices& choices) {
-  std::map<double, double> place[3];
+  std::array<std::map<double, double>, 3> place;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (const Vector3& p : soup.points) place[axis][std::floor(p[axis])] = 0;
+    for (const Vector3& p : soup.points) place[axis][std::floor(p[axis] + 0.01 / fine)] = 0;
     double at = 0;
     for (auto& [plane, position] : place[axis]) {
       position = at;
       at += choices.magnitude(0.05, 3);
     }
   }
-  for (Vector3& p : soup.points)
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto low = place[axis].find(std::floor(p[axis] + 0.01 / fine));
-      const auto high = std::next(low);
-      const double share = p[axis] - low->first;
-      if (high != place[axis].end())
-        p[axis] = low->second + share * (high->second - low->second);
-      else
-        p[axis] = low->second;
-    }
-  return soup;
+  return test::with_planes_at(std::move(soup), fine, place);
 }
 
 // U, L, T, H, plus, S, O profiles, drawn in the plane and given a height.
@@ -115,12 +105,7 @@ inline test::VoxelSolid profile(Index which) {
                                                                {"x"},
                                                                {"xx"},
                                                                {"x.x.x", "xxxxx"}};
-  test::VoxelSolid solid;
-  const auto& rows = kDrawings[static_cast<std::size_t>(which) % kDrawings.size()];
-  for (std::size_t y = 0; y < rows.size(); ++y)
-    for (std::size_t x = 0; x < rows[y].size(); ++x)
-      if (rows[y][x] == 'x') solid.cells.insert({static_cast<int>(x), static_cast<int>(y), 0});
-  return solid;
+  return test::drawn(kDrawings[static_cast<std::size_t>(which) % kDrawings.size()]);
 }
 
 inline FuzzedMesh blocks(Choices& choices) {
