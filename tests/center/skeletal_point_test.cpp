@@ -92,6 +92,23 @@ TEST_CASE("skeletal points lie inside the material of concave slices") {
       find_skeletal_point(PlanarRegion(u_shape()), with(SkeletalPointMethod::kCentre)).position));
 }
 
+TEST_CASE("samples that slip out between two force samples do not count") {
+  // Steps that halve the distance to the contour, or more, get down to rounding.
+  for (const Polygon& shape :
+       {rectangle(1, 1, 1), rectangle(3, 1, 1), ellipse(1, 1, 3), ellipse(2, 1, 5), u_shape()})
+    for (const Index force_samples : {3, 8, 16})
+      for (const double step : {0.25, 0.6, 0.9}) {
+        SkeletalPointOptions options = with(SkeletalPointMethod::kSampledForce);
+        options.step = step;
+        options.force_samples = force_samples;
+        options.moving_samples = 7;
+        const PlanarRegion region(shape);
+        const SkeletalPoint point = find_skeletal_point(region, options);
+        CAPTURE(force_samples, step, static_cast<int>(point.stop), point.position.transpose());
+        CHECK(region.contains(point.position));
+      }
+}
+
 TEST_CASE("holes repel") {
   for (double offset : {0.0, 0.3}) {
     const PlanarRegion region(ellipse(2, 2, 90), {ellipse(0.5, 0.5, 40, {offset, 0})});

@@ -89,6 +89,25 @@ TEST_CASE("A hand has as many digits as fingers") {
   }
 }
 
+TEST_CASE("Digits of a rounded mesh have vertices and a way, if there are any") {
+  const BallGraph graph = figure(5);
+  const DefaultMesh mesh = to_mesh(skin_graph(graph, 8000));
+  for (double grid = 0.004; grid < 0.13; grid *= 1.06) {
+    CAPTURE(grid);
+    const Solid solid(moved(mesh, [&](const Vector3& p) {
+      return Vector3(grid * std::round(p.x() / grid), grid * std::round(p.y() / grid),
+                     grid * std::round(p.z() / grid));
+    }));
+    for (const Digit& digit :
+         find_digits(without_fingers(solid, graph), solid.surface, solid.hierarchy, {})) {
+      CHECK_FALSE(digit.vertices.empty());
+      CHECK_FALSE(digit.way.empty());
+      CHECK((std::isfinite(digit.length) && std::isfinite(digit.radius)));
+      for (const Vector3& x : digit.way) CHECK(x.allFinite());
+    }
+  }
+}
+
 TEST_CASE("Two fingers are a cleft") {
   const BallGraph graph = figure(2);
   const Solid solid(to_mesh(skin_graph(graph, 18000)));

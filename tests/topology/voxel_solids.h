@@ -2,9 +2,12 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <map>
 #include <set>
+#include <string>
 #include <vector>
 
 #include "mspskel/mesh/surface_snapshot.h"
@@ -81,6 +84,29 @@ inline PolygonSoup boundary(const VoxelSolid& solid, int fine = 1) {
         }
     }
   return soup;
+}
+
+// A boundary of unit cells, each cut into `fine`, with the planes between cells at other places: plane k of
+// an axis goes from k to place[axis][k].
+inline PolygonSoup with_planes_at(PolygonSoup soup, int fine,
+                                  const std::array<std::map<double, double>, 3>& place) {
+  for (Vector3& p : soup.points)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto low = place[axis].find(std::floor(p[axis] + 0.01 / fine));
+      const auto high = std::next(low);
+      const double share = p[axis] - low->first;
+      p[axis] = low->second + (high == place[axis].end() ? 0.0 : share * (high->second - low->second));
+    }
+  return soup;
+}
+
+// A drawing's cells, one layer high; rows run along y.
+inline VoxelSolid drawn(const std::vector<std::string>& rows) {
+  VoxelSolid solid;
+  for (std::size_t y = 0; y < rows.size(); ++y)
+    for (std::size_t x = 0; x < rows[y].size(); ++x)
+      if (rows[y][x] == 'x') solid.cells.insert({static_cast<int>(x), static_cast<int>(y), 0});
+  return solid;
 }
 
 // The torus knot T(p, q) as a closed path of cells, from its grid diagram with p + q columns and rows: column

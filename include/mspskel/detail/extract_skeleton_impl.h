@@ -12,6 +12,7 @@
 #include "mspskel/graph/make_curve_skeleton.h"
 #include "mspskel/graph/reach_digits.h"
 #include "mspskel/graph/space_nodes.h"
+#include "mspskel/graph/useless_pieces.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/mesh/component_solids.h"
 #include "mspskel/mesh/orient_shells.h"
@@ -194,6 +195,12 @@ inline void collect_warnings(ExtractResult& result) {
     result.warnings.push_back("no way inside was found for " +
                               counted(result.refinement.routing.unroutable, "stretch", "stretches") +
                               " of the skeleton outside the solid");
+  const UselessPieces useless = find_useless_pieces(result.surface, result.skeleton);
+  if (useless.stubs > 0)
+    result.warnings.push_back("the skeleton is shorter than a tenth of its extent in " +
+                              counted(useless.stubs, "component"));
+  if (useless.on_surface > 0)
+    result.warnings.push_back("the skeleton lies on the surface at " + counted(useless.on_surface, "node"));
   if (result.cycles.rank < result.cycles.cycles)
     result.warnings.push_back("no way round the handle that it misses was found for " +
                               counted(result.cycles.cycles - result.cycles.rank, "cycle") +

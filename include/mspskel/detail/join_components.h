@@ -127,6 +127,7 @@ inline void add_counts(const CollapseCounts& part, CollapseCounts& whole) {
 
 inline void add_counts(const RefinementCounts& part, RefinementCounts& whole) {
   whole.axes += part.axes;
+  whole.paths += part.paths;
   whole.pruned += part.pruned;
   whole.joints_merged += part.joints_merged;
   whole.completed += part.completed;

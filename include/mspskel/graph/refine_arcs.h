@@ -40,6 +40,7 @@ inline void validate(const RefinementOptions& o) {
 
 struct RefinementCounts {
   Index axes = 0;    // components without limbs that got a straight arc
+  Index paths = 0;   // components whose arcs were stubs and that got their longest path inside
   Index pruned = 0;  // leaf arcs removed
   Index joints_merged = 0;
   Index completed = 0;  // arcs added for limbs that had none

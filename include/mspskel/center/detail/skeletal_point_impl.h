@@ -148,7 +148,9 @@ inline SkeletalPoint by_sampled_force(const PlanarRegion& region, const Skeletal
     Vector2 p;
     if (!inward_point(region, s, 0.5, options.displacement * unit, &p)) continue;
     ++result.samples;
-    rests.push_back(trace_moving_sample(region, force_samples, p, options, &result.iterations));
+    const Minimum rest = trace_moving_sample(region, force_samples, p, options, &result.iterations);
+    // Between two force samples nothing keeps it off the contour, and once through it flies away.
+    if (region.contains(rest.position)) rests.push_back(rest);
   }
   const std::vector<Minimum> minima = merge_minima(region, rests, options.merge_radius * unit);
   if (minima.empty()) return deepest_sample(region, options.moving_samples);

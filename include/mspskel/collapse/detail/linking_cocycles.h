@@ -63,7 +63,7 @@ inline bool count_crossing(const Vector3& p, const Vector3& q, const Vector3& a,
   const double denominator = cross(pq, ab);
   const double above =
       p.z() + cross(pa, ab) / denominator * pq.z() - a.z() - cross(pa, pq) / denominator * ab.z();
-  if (std::abs(above) < kHeightRounding) return false;
+  if (!(std::abs(above) >= kHeightRounding)) return false;
   (above > 0 ? count.above : count.below) +=
       *ta < 0 ? 1 : -1;  // a on the right of pq: ab crosses to the left
   return true;

@@ -178,7 +178,7 @@ inline PolylineGraph measure_inside(const SolidHierarchies& solid, const Polylin
       if (!certificate.outside_at) certificate.outside_at = graph.position[v];
     }
   if (lone_outside) ++certificate.edges_not_inside;
-  certificate.inside = total > 0 ? inside / total : (lone_outside ? 0.0 : 1.0);
+  certificate.inside = total > 0 ? std::min(1.0, inside / total) : (lone_outside ? 0.0 : 1.0);
   certificate.edges_inside = static_cast<Index>(sorted.edges.size());
   sorted.edges.insert(sorted.edges.end(), others.begin(), others.end());
   return sorted;

@@ -72,15 +72,26 @@ inline std::optional<Vector3> opening_direction(const Vector3& point, const Boun
   return middle;
 }
 
+// Whether a point lies in the solid and not just below its surface: the way to the nearest surface is no less
+// than a tenth of the way in the opposite direction.
+inline bool is_well_inside(const Vector3& x, const BoundingVolumeHierarchy& solid) {
+  constexpr double kLeast = 0.1;
+  if (!solid.inside(x)) return false;
+  const ClosestPoint nearest = solid.closest(x);
+  if (!(nearest.distance > 0)) return false;
+  const auto opposite = solid.first_hit(x, x - nearest.point);
+  return opposite && nearest.distance >= kLeast * opposite->distance;
+}
+
 // The axis of a solid as far as it runs inside. Of a block, whose centroid lies inside, it is the principal
 // axis that stands apart, there and back from the centroid. Of a vessel it is the line from the opening
 // through the centroid, and of that the longest stretch, which is the stem or lies in the floor; its moments
 // may well be equal, and a handle turns them.
 inline std::optional<std::array<Vector3, 2>> axis_stretch(const SolidMoments& moments,
                                                           const BoundingVolumeHierarchy& solid) {
-  if (!(std::abs(moments.volume) > 0)) return std::nullopt;
+  if (!moments.has_volume()) return std::nullopt;
   const Vector3 centre = moments.centroid();
-  if (!solid.inside(centre)) {
+  if (!is_well_inside(centre, solid)) {
     const auto opening = opening_direction(centre, solid);
     return opening ? longest_stretch(centre, *opening, solid) : std::nullopt;
   }

@@ -131,7 +131,7 @@ class DigitSearch {
     notes.area += surface_.vertex_area[v];
     for_each_neighbour(surface_, v,
                        [&](Index w) { notes.ended = notes.ended || distance_[w] == kElsewhere; });
-    if (notes.ended) return;
+    if (notes.ended || !(notes.area > 0)) return;
     LimbMeasures m;
     m.depth = distance_[part.top] - distance_[v];
     m.slenderness = 2 * kPi * m.depth * m.depth / notes.area;
@@ -140,7 +140,8 @@ class DigitSearch {
 
   bool add_if_digit(const Part& part) {
     const LimbMeasures& m = part.notes.measures;
-    if (m.depth == 0) return false;
+    // Where vertices lie in one place, its top may be another's already.
+    if (!(m.depth > 0) || taken_[part.top]) return false;
     Digit digit;
     digit.tip = surface_.position[part.top];
     digit.length = m.depth;

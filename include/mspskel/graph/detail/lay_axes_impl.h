@@ -7,18 +7,22 @@
 
 #include "mspskel/base/linkage.h"
 #include "mspskel/graph/detail/axis_stretch.h"
-#include "mspskel/graph/detail/hub_components.h"
+#include "mspskel/graph/detail/graph_points.h"
+#include "mspskel/graph/detail/single_arc.h"
+#include "mspskel/graph/useless_pieces.h"
 
 namespace mspskel {
 namespace detail {
 
-// Both ends half the middle ball's radius before the surface.
-inline std::optional<std::vector<Vector3>> axis_points(const SolidMoments& moments,
+// Both ends half the middle ball's radius before the surface. Nothing if that leaves less than `least`.
+inline std::optional<std::vector<Vector3>> axis_points(const SolidMoments& moments, double least,
                                                        const BoundingVolumeHierarchy& solid) {
   const auto stretch = axis_stretch(moments, solid);
   if (!stretch) return std::nullopt;
   const auto [from, to] = *stretch;
-  const Vector3 centre = solid.inside(moments.centroid()) ? moments.centroid() : Vector3((from + to) / 2);
+  const Vector3 centre =
+      is_well_inside(moments.centroid(), solid) ? moments.centroid() : Vector3((from + to) / 2);
+  if (!((from - centre).norm() > 0 && (to - centre).norm() > 0)) return std::nullopt;
   const double clearance = solid.distance(centre);
   const auto end = [&](const Vector3& surface) -> Vector3 {
     // As far before the surface as a grown end (ExtensionOptions), and at least a tenth of the way off, so
@@ -28,7 +32,9 @@ inline std::optional<std::vector<Vector3>> axis_points(const SolidMoments& momen
     const double reach = std::max(0.1 * distance, distance - kTipClearance * clearance);
     return centre + reach / distance * (surface - centre);
   };
-  return std::vector<Vector3>{end(from), centre, end(to)};
+  std::vector<Vector3> points{end(from), centre, end(to)};
+  if (!((points.front() - points.back()).norm() >= least)) return std::nullopt;
+  return points;
 }
 
 }  // namespace detail
@@ -39,26 +45,14 @@ MSPSKEL_INLINE Index lay_axes(ArcGraph& graph, const SurfaceSnapshot& surface,
   if (std::find(limbed.begin(), limbed.end(), false) == limbed.end()) return 0;
   const std::vector<Index> twice_euler = twice_euler_characteristics(surface);
   const std::vector<detail::SolidMoments> moments = detail::solid_moments(surface);
-  const std::vector<Index> component = detail::hub_components(graph, surface);
-  const std::size_t collapsed_arcs = graph.arcs.size();
+  const std::vector<Index> component = detail::components_of_pieces(graph, surface);
+  const std::vector<double> extent = component_extents(surface);
   Index laid = 0;
   for (Index c = 0; c < surface.component_count; ++c) {
     if (limbed[c] || twice_euler[c] != 4) continue;
-    const auto points = detail::axis_points(moments[c], solid);
+    auto points = detail::axis_points(moments[c], kLeastPieceLength * extent[c], solid);
     if (!points) continue;
-    for (std::size_t i = 0; i < collapsed_arcs; ++i)
-      if (component[graph.arcs[i].hub[0]] == c) graph.arcs[i].alive = false;
-    for (Index h = 0; h < static_cast<Index>(component.size()); ++h)
-      if (component[h] == c) graph.hub_alive[h] = false;
-    Arc axis;
-    axis.hub = {graph.add_hub(points->front()), graph.add_hub(points->back())};
-    axis.points = *points;
-    graph.arcs.push_back(std::move(axis));
-    for (Index v = 0; v < surface.vertex_count(); ++v) {
-      if (surface.vertex_halfedge[v] == kNone || surface.component[v] != c) continue;
-      graph.arc_of_vertex[v] = graph.arc_count() - 1;
-      graph.hub_of_vertex[v] = kNone;
-    }
+    detail::replace_by_arc(graph, surface, component, c, std::move(*points));
     ++laid;
   }
   return laid;

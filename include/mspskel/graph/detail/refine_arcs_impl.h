@@ -5,6 +5,7 @@
 #include "mspskel/graph/complete_limbs.h"
 #include "mspskel/graph/detail/inner_graph.h"
 #include "mspskel/graph/lay_axes.h"
+#include "mspskel/graph/lay_longest_paths.h"
 #include "mspskel/graph/limit_nodes.h"
 #include "mspskel/graph/merge_joints.h"
 #include "mspskel/graph/prune_branches.h"
@@ -62,6 +63,7 @@ class ArcRefinement {
     aim_strays();
     tighten();
     lay();  // straight again: in a block every wall is as near, and centring goes where the noise leads
+    lay_paths();
     subdivide(graph_, 1.25 * options_.centering.step);  // rounds of centring stretch some edges
     return counts_;
   }
@@ -103,6 +105,10 @@ class ArcRefinement {
   void lay() {
     counts_.axes = lay_axes(graph_, surface_, solid_, tips_);
     keep_type("laying of axes");
+  }
+  void lay_paths() {
+    counts_.paths = lay_longest_paths(graph_, surface_, solid_, inner_, options_.centering.step);
+    keep_type("laying of paths");
   }
   void tighten() {
     tighten_in_walls(graph_, surface_, solid_, find_shells(surface_, solid_, slices_), inner_,

@@ -3,6 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "mspskel/mesh/surface_snapshot.h"
@@ -16,6 +17,11 @@ struct SolidMoments {
   Vector3 first = Vector3::Zero();                   // ∫ x
   Eigen::Matrix3d second = Eigen::Matrix3d::Zero();  // ∫ x xᵀ
 
+  double gross = 0.0;  // volumes of the tetrahedra, each without its sign
+
+  // More than rounding leaves of a sheet.
+  bool has_volume() const { return std::abs(volume) > 1e-13 * gross; }
+  // Of a solid that has a volume.
   Vector3 centroid() const { return first / volume; }
 
   // The principal axis whose moment stands apart from the other two by the larger factor.
@@ -36,6 +42,7 @@ inline std::vector<SolidMoments> solid_moments(const SurfaceSnapshot& surface) {
                   &c = surface.position[corner[2]], sum = a + b + c;
     const double volume = a.dot(b.cross(c)) / 6;
     m.volume += volume;
+    m.gross += std::abs(volume);
     m.first += volume / 4 * sum;
     m.second +=
         volume / 20 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
