@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cstdlib>
 
+#include "mspskel/collapse/detail/homology_generators.h"
 #include "mspskel/collapse/skeleton_decimater.h"
 #include "mspskel/collapse/volume_cocycles.h"
 #include "topology/voxel_solids.h"

@@ -4,6 +4,8 @@
 #include <catch2/catch.hpp>
 #include <numeric>
 
+#include "mspskel/collapse/detail/homology_generators.h"
+#include "mspskel/collapse/label_rank.h"
 #include "support/meshes.h"
 #include "topology/voxel_solids.h"
 

@@ -29,6 +29,8 @@ class CrossingLabels {
   Index component(Index i) const { return rows_[i].component; }
   // Whether cocycle i is crossings with a flat region of the solid.
   bool is_region(Index i) const { return !rows_[i].is_loop; }
+  // Whether some cocycle is a linking number.
+  bool has_loops() const { return !loop_edges_.empty(); }
 
   // Label of the way from a to b. `clear` is set to false where rounding leaves a doubt, else left alone.
   // Cost: O(log rank) where no region is near, and O(points of its outlines) a region whose plane is met.

@@ -38,8 +38,8 @@ struct ClassRouting {
 // path of least length / clearance of this kind; just below the surface where there is no other. Leaf arcs
 // close no cycle and stay.
 //
-// Classes are seen by cocycles that are regions; linking numbers say nothing about a single arc. Expects the
-// arcs of make_arc_graph. Cost: a label and a query a point; a shortest path within its tube an arc that is
+// Linking numbers are held against those of the same path just below the surface. Expects the arcs of
+// make_arc_graph. Cost: a label and a query a point; a shortest path within its tube an arc that is
 // led anew. Throws Cancelled.
 ClassRouting route_by_class(ArcGraph& graph, const CollapseTubes& tubes, const SurfaceSnapshot& input,
                             const BoundingVolumeHierarchy& solid, const CrossingLabels& crossings,

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <functional>
-#include <optional>
 #include <queue>
-#include <tuple>
 #include <unordered_map>
 #include <utility>
 
@@ -16,6 +14,10 @@ namespace detail {
 
 // Points inside the solid for each vertex of the surface: the middle of its inward chord, and one just below
 // the surface. Found when first asked for.
+//
+// Labels of ways begin at the vertex where cocycles are regions. A linking number cannot: its loop may pass
+// through the vertex. It begins at the point just below, and is carried from vertex to vertex by the straight
+// steps between these.
 class ChordPoints {
  public:
   enum Layer { kMiddle, kShallow };
@@ -29,10 +31,31 @@ class ChordPoints {
               const CrossingLabels& crossings)
       : surface_(surface), solid_(solid), crossings_(crossings) {}
 
+  // The label's entries whose cocycles are regions, or the other ones.
+  CocycleLabel part(const CocycleLabel& label, bool of_regions) const {
+    CocycleLabel result;
+    for (const auto& [index, value] : label.entries())
+      if (crossings_.is_region(index) == of_regions) result += CocycleLabel::unit(index, value);
+    return result;
+  }
+  // Of the straight way from the vertex, which x sees.
+  CocycleLabel from_vertex(Index v, const Vector3& x) {
+    const Vector3& position = surface_.position[v];
+    const CocycleLabel label = crossings_(position, x);
+    if (!crossings_.has_loops()) return label;
+    return part(label, true) + part(crossings_(base(v), x), false);
+  }
+  // Linking numbers of the step along the half-edge below the surface.
+  CocycleLabel below(Index h) {
+    return part(crossings_(base(surface_.origin[h]), base(surface_.target(h))), false);
+  }
+
   const Point& operator()(Index v, Layer layer) {
     const auto [it, fresh] = points_.try_emplace(2 * std::int64_t{v} + layer);
-    if (fresh) place(v, layer, it->second);
-    return it->second;
+    if (!fresh) return it->second;
+    Point point;
+    place(v, layer, point);
+    return points_[2 * std::int64_t{v} + layer] = std::move(point);
   }
 
  private:
@@ -52,7 +75,14 @@ class ChordPoints {
     point.x = chord->start - depth * surface_.normal[v];
     if (!solid_.inside(point.x)) return;
     point.clearance = std::min(depth, solid_.closest(point.x, depth).distance);
-    point.from_vertex = crossings_(position, point.x);
+    if (layer == kMiddle || !crossings_.has_loops())
+      point.from_vertex = from_vertex(v, point.x);
+    else
+      point.from_vertex = part(crossings_(position, point.x), true);
+  }
+  Vector3 base(Index v) {
+    const Point& shallow = (*this)(v, kShallow);
+    return shallow.clearance > 0 ? shallow.x : surface_.position[v];
   }
 
   const SurfaceSnapshot& surface_;
@@ -96,8 +126,8 @@ class TubeRouter {
         crossings_(crossings),
         points_(surface, solid, crossings),
         hubs_(graph.hub_position.size()) {
-    for (Index i = 0; i < crossings.rank(); ++i) all_regions_ = all_regions_ && crossings.is_region(i);
     index_nodes();
+    if (crossings.has_loops()) link();
   }
 
   ClassRouting run(const Execution& execution) {
@@ -154,12 +184,62 @@ class TubeRouter {
         vertices_[fill[node]++] = static_cast<Index>(v);
   }
 
-  // Whether labels agree where cocycles are regions.
-  bool same(const CocycleLabel& a, const CocycleLabel& b) const {
-    if (all_regions_ || a == b) return a == b;
-    const CocycleLabel difference = a - b;
-    return std::none_of(difference.entries().begin(), difference.entries().end(),
-                        [&](const CocycleLabel::Entry& e) { return crossings_.is_region(e.index); });
+  // Linking numbers of ways from the nodes' origins below the surface, and of the steps between nodes.
+  void link() {
+    linking_.resize(tubes_.node_of_vertex.size());
+    std::vector<bool> reached(linking_.size(), false);
+    std::vector<Index> queue;
+    for (const Index root : vertices_) {
+      if (reached[root]) continue;
+      reached[root] = true;
+      queue.assign(1, root);
+      for (std::size_t i = 0; i < queue.size(); ++i)
+        for_each_outgoing(queue[i], [&](Index h) {
+          const Index w = surface_.target(h);
+          if (reached[w] || !within_node(h)) return;
+          reached[w] = true;
+          linking_[w] = linking_[queue[i]] + points_.below(h);
+          queue.push_back(w);
+        });
+    }
+    for (const ArcTube& tube : tubes_.arcs.tube) {
+      linking_of_tube_.emplace_back();
+      for (Index place = 0; place + 1 < static_cast<Index>(tube.nodes.size()); ++place)
+        linking_of_tube_.back() += linking_of_step(tube, place);
+    }
+  }
+  bool within_node(Index h) const {
+    const Index v = surface_.origin[h], w = surface_.target(h);
+    return tubes_.node_of_vertex[v] == tubes_.node_of_vertex[w] &&
+           tubes_.to_vertex[v] + tubes_.halfedge[h] == tubes_.to_vertex[w];
+  }
+  CocycleLabel linking_of_step(const ArcTube& tube, Index place) {
+    Index edge = kNone;
+    for (Index i = begin_[tube.nodes[place]]; i < begin_[tube.nodes[place] + 1] && edge == kNone; ++i)
+      for_each_outgoing(vertices_[i], [&](Index h) {
+        if (edge == kNone && follows(tube, place, h, place + 1)) edge = h;
+      });
+    if (edge == kNone) return {};
+    return linking_[surface_.origin[edge]] + points_.below(edge) - linking_[surface_.target(edge)];
+  }
+  template <class Visit>
+  void for_each_outgoing(Index v, Visit visit) const {
+    const Index first = surface_.vertex_halfedge[v];
+    Index h = first;
+    do {
+      visit(h);
+      h = surface_.next_outgoing(h);
+    } while (h != first);
+  }
+
+  // Of a way from the origin of its node to the vertex.
+  CocycleLabel to_vertex(Index v) const {
+    if (linking_.empty()) return tubes_.to_vertex[v];
+    return points_.part(tubes_.to_vertex[v], true) + linking_[v];
+  }
+  CocycleLabel along_halfedge(Index h) {
+    if (linking_.empty()) return tubes_.halfedge[h];
+    return points_.part(tubes_.halfedge[h], true) + points_.below(h);
   }
 
   // Finds a way from the origin of the hub's node to the hub: over the surface to the nearest vertex of its
@@ -180,7 +260,7 @@ class TubeRouter {
       for (const Index v : hub.near) {
         const Vector3 start = surface_.position[v] - 1e-7 * surface_.normal[v];
         if (!solid_.inside(start) || solid_.segment_crosses(start, x)) continue;
-        hub.from_origin = tubes_.to_vertex[v] + crossings_(surface_.position[v], x);
+        hub.from_origin = to_vertex(v) + points_.from_vertex(v, x);
         return;
       }
     for (const Index v : hub.near)
@@ -188,7 +268,7 @@ class TubeRouter {
         const ChordPoints::Point& point = points_(v, layer);
         if (point.clearance == 0) continue;
         graph_.move_hub(h, point.x);
-        hub.from_origin = tubes_.to_vertex[v] + point.from_vertex;
+        hub.from_origin = to_vertex(v) + point.from_vertex;
         return;
       }
   }
@@ -196,15 +276,17 @@ class TubeRouter {
   CocycleLabel wanted(Index a) const {
     const Arc& arc = graph_.arcs[a];
     CocycleLabel label = hubs_[arc.hub[1]].from_origin - hubs_[arc.hub[0]].from_origin;
-    for (const CocycleLabel& step : tubes_.arcs.tube[a].step) label += step;
-    return label;
+    CocycleLabel steps;
+    for (const CocycleLabel& step : tubes_.arcs.tube[a].step) steps += step;
+    if (linking_.empty()) return label + steps;
+    return label + points_.part(steps, true) + linking_of_tube_[a];
   }
 
   bool is_right(Index a) const {
     const std::vector<Vector3>& points = graph_.arcs[a].points;
     for (std::size_t i = 1; i < points.size(); ++i)
       if (solid_.segment_crosses(points[i - 1], points[i])) return false;
-    return same(crossings_.along(points), wanted(a));
+    return crossings_.along(points) == wanted(a);
   }
 
   std::int64_t key(const State& s) const {
@@ -224,10 +306,10 @@ class TubeRouter {
 
   // Whether a straight step between two points stays inside and has the class of the edge.
   bool step_is_right(const State& from, const State& to, Index h) {
-    const ChordPoints::Point a = points_(from.vertex, from.layer), &b = points_(to.vertex, to.layer);
+    const ChordPoints::Point a = points_(from.vertex, from.layer), b = points_(to.vertex, to.layer);
     if (solid_.segment_crosses(a.x, b.x)) return false;
-    const CocycleLabel edge = h == kNone ? CocycleLabel{} : tubes_.halfedge[h];
-    return same(a.from_vertex + crossings_(a.x, b.x), edge + b.from_vertex);
+    const CocycleLabel edge = h == kNone ? CocycleLabel{} : along_halfedge(h);
+    return a.from_vertex + crossings_(a.x, b.x) == edge + b.from_vertex;
   }
 
   // The points of the hub's part that it sees, in its class, with what it costs to get there.
@@ -240,15 +322,13 @@ class TubeRouter {
         if (result.size() >= kWanted) return result;
         const ChordPoints::Point& point = points_(v, layer);
         if (point.clearance == 0 || solid_.segment_crosses(x, point.x)) continue;
-        const CocycleLabel label = tubes_.to_vertex[v] + point.from_vertex + crossings_(point.x, x);
-        if (same(label, hubs_[h].from_origin))
+        const CocycleLabel label = to_vertex(v) + point.from_vertex + crossings_(point.x, x);
+        if (label == hubs_[h].from_origin)
           result.push_back({(point.x - x).norm() / point.clearance, {place, v, layer}});
       }
     }
     return result;
   }
-
-  using Way = std::tuple<double, std::int64_t, std::int64_t>;  // cost, key, key before
 
   bool lead(Index a) {
     const ArcTube& tube = tubes_.arcs.tube[a];
@@ -332,10 +412,11 @@ class TubeRouter {
   const BoundingVolumeHierarchy& solid_;
   const CrossingLabels& crossings_;
   const Execution* execution_ = nullptr;
-  bool all_regions_ = true;
   ChordPoints points_;
   std::vector<Hub> hubs_;
   std::vector<Index> begin_, vertices_;  // of each node
+  // Per vertex and per arc; empty where all cocycles are regions.
+  std::vector<CocycleLabel> linking_, linking_of_tube_;
   std::unordered_map<std::int64_t, Record> records_;
   std::priority_queue<Step, std::vector<Step>, std::greater<>> queue_;
   std::int64_t order_ = 0;
