@@ -50,7 +50,7 @@ MSPSKEL_INLINE Index lay_axes(ArcGraph& graph, const SurfaceSnapshot& surface,
   Index laid = 0;
   for (Index c = 0; c < surface.component_count; ++c) {
     if (limbed[c] || twice_euler[c] != 4) continue;
-    auto points = detail::axis_points(moments[c], kLeastPieceLength * extent[c], solid);
+    auto points = detail::axis_points(moments[c], 1e-6 * extent[c], solid);
     if (!points) continue;
     detail::replace_by_arc(graph, surface, component, c, std::move(*points));
     ++laid;

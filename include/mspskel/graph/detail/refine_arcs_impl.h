@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "mspskel/base/linkage.h"
 #include "mspskel/graph/aim_ends.h"
 #include "mspskel/graph/complete_limbs.h"
@@ -107,6 +109,9 @@ class ArcRefinement {
     keep_type("laying of axes");
   }
   void lay_paths() {
+    // In the wall of a cup any path is as good as another: what its axis has of the solid stays.
+    const std::vector<bool> shells = find_shells(surface_, solid_, slices_);
+    if (std::find(shells.begin(), shells.end(), false) == shells.end()) return;
     counts_.paths = lay_longest_paths(graph_, surface_, solid_, inner_, options_.centering.step);
     keep_type("laying of paths");
   }
