@@ -77,7 +77,7 @@ inline void draw_points(OptionDraw& draw, ExtractOptions& o) {
   draw.range("--merge-radius", point.merge_radius, 0, 1);
   draw.range("--starts", point.starts, 1, 8);
   draw.pick("--coherence", o.coherence.enabled, {true, false});
-  draw.range("--coherence-strength", o.coherence.strength, 0, 1000);
+  draw.range("--coherence-strength", o.coherence.strength, 0, 10);
 }
 
 inline void draw_collapse(OptionDraw& draw, ExtractOptions& o) {
