@@ -78,9 +78,38 @@ inline std::vector<Index> node_components(const ExtractResult& result) {
   return component;
 }
 
-// Every node lies in the solid of its own component, or a warning says that something is wrong.
-inline void check_containment(const ExtractResult& result, const std::vector<Index>& component) {
-  if (!result.warnings.empty()) return;
+// The certificate agrees with the counts, and fails nothing without a warning.
+inline TopologyCertificate check_certificate(const ExtractResult& result,
+                                             const std::vector<Index>& component) {
+  PolylineGraph graph;
+  for (const SkeletonNode& node : result.skeleton.nodes)
+    graph.position.push_back(result.surface.frame.to_normalised(node.position));
+  graph.edges = result.skeleton.edges;
+  graph.component = component;
+  const TopologyCertificate certificate =
+      certify_topology(result.surface, result.cocycles, BoundingVolumeHierarchy(result.surface), graph);
+  const GraphCounts counts = count_graph(result.skeleton);
+  hold(certificate.b0 == counts.components && certificate.b1 == counts.cycles,
+       "the certificate counts pieces and cycles");
+  hold(certificate.inside >= 0 && certificate.inside <= 1, "the share inside is from 0 to 1");
+  hold(certificate.verdict != TopologyVerdict::kProved || certificate.edges_not_inside == 0,
+       "nothing outside is proved");
+  return certificate;
+}
+
+// What the default mode adds: arcs are led inside and round their handles, as long as the surface bounds a
+// solid.
+inline void check_refined(const ExtractResult& result, const TopologyCertificate& certificate) {
+  if (certificate.self_intersecting || !result.warnings.empty()) return;
+  hold(certificate.edges_not_inside == 0, "wholly inside an embedded surface, or a warning");
+  hold(certificate.verdict != TopologyVerdict::kFailed, "cycles round all handles of an embedded surface");
+}
+
+// Every node lies in the solid of its own component, or the certificate says that something is outside, which
+// the program warns of.
+inline void check_containment(const ExtractResult& result, const std::vector<Index>& component,
+                              const TopologyCertificate& certificate) {
+  if (certificate.edges_not_inside > 0) return;
   const SurfaceSnapshot& surface = result.surface;
   std::vector<std::vector<Index>> faces(static_cast<std::size_t>(surface.component_count));
   for (Index f = 0; f < surface.face_count(); ++f)
@@ -91,7 +120,7 @@ inline void check_containment(const ExtractResult& result, const std::vector<Ind
     const BoundingVolumeHierarchy solid(surface, faces[c]);
     for (const Index i : nodes[c])
       hold(solid.inside(surface.frame.to_normalised(result.skeleton.nodes[i].position)),
-           "every node in the solid of its component, or a warning");
+           "every node in the solid of its component, or the certificate says otherwise");
   }
 }
 
@@ -110,21 +139,6 @@ inline void check_lengths(const ExtractResult& result, const std::vector<Index>&
   for (std::size_t c = 0; c < count; ++c)
     hold(length[c] >= 0.1 * box[c].sizes().maxCoeff(),
          "a piece at least a tenth as long as its component, or a warning");
-}
-
-// The certificate has nothing against a skeleton that comes without a warning.
-inline void check_certificate(const ExtractResult& result, const std::vector<Index>& component) {
-  PolylineGraph graph;
-  for (const SkeletonNode& node : result.skeleton.nodes)
-    graph.position.push_back(result.surface.frame.to_normalised(node.position));
-  graph.edges = result.skeleton.edges;
-  graph.component = component;
-  const TopologyCertificate certificate =
-      certify_topology(result.surface, result.cocycles, BoundingVolumeHierarchy(result.surface), graph);
-  hold(certificate.inside >= 0 && certificate.inside <= 1, "the share inside is from 0 to 1");
-  if (!result.warnings.empty()) return;
-  hold(certificate.verdict != TopologyVerdict::kFailed, "the certificate holds, or a warning");
-  hold(certificate.edges_not_inside == 0, "every edge in the solid of its component, or a warning");
 }
 
 inline void check_threads(const DefaultMesh& mesh, ExtractOptions options, const CurveSkeleton& skeleton) {
@@ -182,8 +196,9 @@ inline Outcome check_pipeline(const FuzzedInput& input, Choices& choices) {
   check_numbers(result.skeleton);
   check_graph(result);
   const std::vector<Index> component = node_components(result);
-  check_certificate(result, component);
-  check_containment(result, component);
+  const TopologyCertificate certificate = check_certificate(result, component);
+  check_containment(result, component, certificate);
+  if (options.refinement.enabled) check_refined(result, certificate);
   check_lengths(result, component);
   if (choices.one_in(2))
     check_threads(mesh, options, result.skeleton);
