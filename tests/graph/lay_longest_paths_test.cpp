@@ -66,6 +66,19 @@ TEST_CASE("Random U, L, T, H and plus profiles have skeletons as long as they ar
     }
 }
 
+TEST_CASE("Ways to ends round a corner stay inside") {
+  // A thin plus: its long arm starts beside the middle of what carries it.
+  const Planes place{{{{0, 0}, {1, 1.82}, {2, 4.32}, {3, 4.52}},
+                      {{0, 0}, {1, 0.106}, {2, 0.186}, {3, 0.825}},
+                      {{0, 0}, {1, 0.071}}}};
+  const DefaultMesh mesh = to_mesh(with_planes_at(boundary(drawn(profiles()[4]), 2), 2, place));
+  check_useful(mesh);
+  double least = 1;
+  for (const SkeletonNode& node : extract_skeleton(mesh).skeleton.nodes)
+    least = std::min(least, node.position.x());
+  CHECK(least < 0.1);
+}
+
 TEST_CASE("A plate has a skeleton as long as it is wide") {
   const Planes place{{{{0, 0}, {1, 1}}, {{0, 0}, {1, 1}}, {{0, 0}, {1, 0.01}}}};
   check_useful(to_mesh(with_planes_at(boundary(drawn({"x"}), 4), 4, place)));

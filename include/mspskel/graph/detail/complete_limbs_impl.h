@@ -153,6 +153,9 @@ class LimbCompletion {
     if (points.empty()) return false;
     if (!is_tip && outside_[v] < 0.5 * kCorner * solid_.distance(points.front().second.position))
       return false;
+    const auto reaches = [&] {
+      return (way.back() - target).norm() <= 2 * std::max(step_, solid_.distance(way.back()));
+    };
     for (const auto& [distance, point] : points) {
       const Vector3& x = point.position;
       if (solid_.segment_crosses(x, x + 0.98 * (target - x))) continue;
@@ -160,7 +163,7 @@ class LimbCompletion {
       way.assign(1, x);
       lead_towards(way, target, solid_, step_);
       // Along a thin limb the straight way may graze the surface.
-      if ((way.back() - target).norm() > 2 * std::max(step_, solid_.distance(way.back()))) break;
+      if (!reaches()) break;
       return way.size() > 2;
     }
     inner_.prepare();
@@ -170,7 +173,13 @@ class LimbCompletion {
     if (!inner_.path(start.position, inner_.point(v), between)) return false;
     way.assign(1, start.position);
     way.insert(way.end(), between.begin(), between.end());
+    const std::size_t inside = way.size();
     lead_towards(way, target, solid_, step_);
+    if (!reaches()) {  // the target's own chord leads there for certain
+      way.resize(inside);
+      way.push_back(inner_.point(v));
+      lead_towards(way, target, solid_, step_);
+    }
     return way.size() > 2;
   }
 

@@ -18,7 +18,8 @@ inline Vector3 point_before_end(const std::vector<Vector3>& points, double lengt
   return points.front();
 }
 
-// Points from `from` straight towards `target` until the maximal ball nearly touches it.
+// Points from the last one straight towards `target` until the maximal ball nearly touches it, or the surface
+// is in the way.
 inline void lead_towards(std::vector<Vector3>& points, const Vector3& target,
                          const BoundingVolumeHierarchy& solid, double step) {
   const Vector3 from = points.back(), way = target - from;
@@ -27,6 +28,7 @@ inline void lead_towards(std::vector<Vector3>& points, const Vector3& target,
     const Vector3 x = from + way * (walked / length);
     const double clearance = solid.distance(x);
     if (clearance > 0.9 * (length - walked) || clearance < 0.25 * step) break;
+    if (solid.segment_crosses(points.back(), x)) break;
     points.push_back(x);
   }
 }
