@@ -4,5 +4,4 @@ add_executable(pipeline_fuzz fuzz/pipeline_driver.cpp)
 target_link_libraries(pipeline_fuzz PRIVATE mspskel CLI11::CLI11)
 target_include_directories(pipeline_fuzz PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 mspskel_target_warnings(pipeline_fuzz)
-# Not a test as long as it has findings: run build/tests/pipeline_fuzz by hand.
-# add_test(NAME "pipeline_fuzz" COMMAND pipeline_fuzz --seed 1 --runs 400 --seconds 100)
+add_test(NAME "pipeline_fuzz" COMMAND pipeline_fuzz --seed 1 --runs 400 --seconds 60)
