@@ -97,6 +97,20 @@ TEST_CASE("A solid keeps clear of its cavities, and a cavity's skeleton lies in 
   }
 }
 
+TEST_CASE("Pieces that cross lie in neither, whichever way they are turned") {
+  // The first vertex of each lies in the other one; mirrored, the other one is turned inward.
+  PolygonSoup both = to_soup(cube());
+  PolygonSoup other = both;
+  for (Vector3& p : other.points) p = -p - Vector3(0.9, 0.9, 0.9);
+  append(both, other);
+  const SurfaceSnapshot surface = snapshot_of(both);
+  const ComponentSolids solids = find_component_solids(surface);
+  CHECK(solids.around == std::vector<Index>{kNone, kNone});
+  CHECK(solids.signed_volume[0] * solids.signed_volume[1] < 0);
+  CHECK(solids.cavity == std::vector<std::uint8_t>{0, 0});
+  CHECK(extract_skeleton(to_mesh(both)).skeleton.nodes.size() > 1);
+}
+
 TEST_CASE("The budget of vertices is each component's own") {
   const ExtractResult result = extract_skeleton(to_mesh(sample("chain", 40)));
   CHECK(result.surface.component_count == 40);

@@ -76,9 +76,12 @@ MSPSKEL_INLINE ComponentSolids find_component_solids(const SurfaceSnapshot& surf
                                6;
   }
   const auto around = detail::components_around(surface, solids.faces, boxes, progress);
+  // What lies around another one has fewer around itself. Of pieces that cross, each may be found around the
+  // other: neither is.
   for (Index c = 0; c < n; ++c)
     for (const Index outer : around[c])
-      if (solids.around[c] == kNone || around[outer].size() > around[solids.around[c]].size())
+      if (around[outer].size() < around[c].size() &&
+          (solids.around[c] == kNone || around[outer].size() > around[solids.around[c]].size()))
         solids.around[c] = outer;
   const std::vector<std::vector<Index>> own = solids.faces;
   for (Index c = 0; c < n; ++c) {
