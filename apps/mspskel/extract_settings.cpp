@@ -134,7 +134,7 @@ void add_arc_options(CommandLine& line, ExtractOptions& options, double& step, d
               "2 keeps limbs half as slender as 1 does, 0.5 only those twice as slender");
   line.number("--smallest", refinement.limbs.smallest, {0, 1}, "features below this size are noise");
   line.number("--centring-rounds", refinement.centering.rounds, {0, 100}, "of sections and solves");
-  line.number("--smoothness", refinement.centering.smoothness, {0, 1e6}, "weight of straight arcs");
+  line.number("--smoothness", refinement.centering.smoothness, {0.1, 1e6}, "weight of straight arcs");
   line.number("--tip-clearance", refinement.extension.tip_clearance, {0.05, 2},
               "where arcs end before a tip, in radii of the limb's end");
   line.number("--joint-overlap", refinement.joint_overlap, {0, 10},

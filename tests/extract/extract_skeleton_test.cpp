@@ -179,6 +179,16 @@ TEST_CASE("A renumbered mesh has the same skeleton in thesis mode") {
                    result.surface.frame.scale);
 }
 
+TEST_CASE("A filtered skeleton of a coarser surface goes on to the arcs") {
+  ExtractOptions options = default_options();
+  options.filter_branches = true;
+  options.coarsening.vertices = 100;
+  options.coarsening.component_vertices = 20;
+  const ExtractResult result = extract_skeleton(mesh_of({"torus", 350, 0}), options);
+  REQUIRE(result.coarse);
+  check_topology(result);
+}
+
 namespace {
 
 struct FloatTraits : OpenMesh::DefaultTraits {

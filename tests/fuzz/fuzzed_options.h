@@ -99,7 +99,7 @@ inline void draw_arcs(OptionDraw& draw, ExtractOptions& o) {
   draw.range("--slenderness", r.limbs.slenderness, 0.0125, 100);
   draw.range("--smallest", r.limbs.smallest, 0, 1);
   draw.range("--centring-rounds", r.centering.rounds, 0, 10);
-  draw.range("--smoothness", r.centering.smoothness, 0, 1e6);
+  draw.range("--smoothness", r.centering.smoothness, 0.1, 1e6);
   draw.range("--tip-clearance", r.extension.tip_clearance, 0.05, 2);
   draw.range("--joint-overlap", r.joint_overlap, 0, 10);
 }

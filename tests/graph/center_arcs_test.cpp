@@ -183,7 +183,7 @@ TEST_CASE("Arcs stay inside with any weight of straight arcs") {
   SampleOptions small;
   small.resolution = 120;
   const Solid solid(build_mesh(make_sample("torus", small)));
-  for (const double smoothness : {0.0, 1e3, 1e6}) {
+  for (const double smoothness : {0.1, 1e3, 1e6}) {
     ArcGraph graph;
     std::vector<Vector3> ring;
     for (int i = 0; i <= 40; ++i)

@@ -180,7 +180,8 @@ inline void carry_over(ExtractResult& result, ArcGraph& arcs) {
   mesh.valid = carried_over(mesh.valid, from, std::uint8_t{0});
   mesh.area = result.surface.vertex_area;
   result.collapsed.node_of_vertex = carried_over(result.collapsed.node_of_vertex, from, kNone);
-  result.collapsed.label_of_vertex = carried_over(result.collapsed.label_of_vertex, from, CocycleLabel{});
+  std::vector<CocycleLabel>& label = result.collapsed.label_of_vertex;
+  if (!label.empty()) label = carried_over(label, from, CocycleLabel{});  // filtered skeletons have none
   if (arcs.arc_of_vertex.empty()) return;
   arcs.arc_of_vertex = carried_over(arcs.arc_of_vertex, from, kNone);
   arcs.hub_of_vertex = carried_over(arcs.hub_of_vertex, from, kNone);

@@ -20,7 +20,7 @@ struct CenteringOptions {
   int tangent_smoothing = 3;  // rounds of neighbour averages before tangents are taken, 0 to 100
   // Weight of |x − mean of neighbours|² against |x − centre|² where the solid is as thick as the step is
   // long; it grows with the square of the thickness, so thin limbs are followed and thick parts get straight
-  // arcs. 0 to 1e6.
+  // arcs. 0.1 to 1e6: with less, neighbouring points do not hold each other, and arcs grow with every round.
   double smoothness = 10.0;
   double damping = 0.5;  // share of the way to the solution that a round goes; above 0, at most 1
 };
@@ -32,7 +32,7 @@ inline void validate(const CenteringOptions& o) {
   if (o.rays < 4 || o.rays > 256) throw UsageError("centring rays must be from 4 to 256");
   if (o.tangent_smoothing < 0 || o.tangent_smoothing > 100)
     throw UsageError("tangent smoothing must be from 0 to 100");
-  if (!(o.smoothness >= 0 && o.smoothness <= 1e6)) throw UsageError("smoothness must be from 0 to 1e6");
+  if (!(o.smoothness >= 0.1 && o.smoothness <= 1e6)) throw UsageError("smoothness must be from 0.1 to 1e6");
   if (!(o.damping > 0 && o.damping <= 1)) throw UsageError("damping must be above 0 and at most 1");
 }
 

@@ -30,6 +30,9 @@ RoutingResult route_inside(ArcGraph& graph, const BoundingVolumeHierarchy& solid
 RoutingResult route_arcs_inside(ArcGraph& graph, const BoundingVolumeHierarchy& solid,
                                 detail::InnerGraph& inner);
 
+// Edges of the arcs that meet the surface. A query a point.
+Index count_crossing_edges(const ArcGraph& graph, const BoundingVolumeHierarchy& solid);
+
 // Removes leaf arcs that leave the solid: where a surface crosses itself, parts of what it bounds may be out
 // of one another's reach. Returns their number. Cost: a query a point.
 Index remove_crossing_leaves(ArcGraph& graph, const BoundingVolumeHierarchy& solid);

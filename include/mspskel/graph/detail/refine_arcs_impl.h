@@ -86,9 +86,8 @@ class ArcRefinement {
       counts_.routing.unroutable = again.unroutable;
     }
     if (counts_.routing.unroutable > 0) {
-      const Index removed = remove_crossing_leaves(graph_, solid_);
-      counts_.pruned += removed;
-      counts_.routing.unroutable -= std::min(removed, counts_.routing.unroutable);
+      counts_.pruned += remove_crossing_leaves(graph_, solid_);
+      counts_.routing.unroutable = count_crossing_edges(graph_, solid_);
     }
     counts_.classes = route_by_class(graph_, classes_.tubes, input_, solid_, classes_.crossings, execution_);
     keep_type("routing inside");

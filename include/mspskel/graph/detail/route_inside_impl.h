@@ -94,6 +94,14 @@ MSPSKEL_INLINE RoutingResult route_arcs_inside(ArcGraph& graph, const BoundingVo
   return result;
 }
 
+MSPSKEL_INLINE Index count_crossing_edges(const ArcGraph& graph, const BoundingVolumeHierarchy& solid) {
+  Index crossing = 0;
+  for (const Arc& arc : graph.arcs)
+    for (std::size_t i = 1; arc.alive && i < arc.points.size(); ++i)
+      if (solid.segment_crosses(arc.points[i - 1], arc.points[i])) ++crossing;
+  return crossing;
+}
+
 MSPSKEL_INLINE Index remove_crossing_leaves(ArcGraph& graph, const BoundingVolumeHierarchy& solid) {
   Index removed = 0;
   auto at = graph.incidence();
