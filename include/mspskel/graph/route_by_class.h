@@ -31,6 +31,10 @@ struct ClassRouting {
   Index abandoned = 0;  // of these, arcs for which no way was found: they stay as they were
 };
 
+// Per arc whether it is left when leaf arcs are taken away for as long as there are any: part of a cycle, or
+// on the way from one to another.
+std::vector<bool> arcs_of_cycles(const ArcGraph& graph);
+
 // Each node of the collapse stands for a part of the surface, so an arc has a tube: the parts of its nodes,
 // one after the other. A path along the edges of the mesh within the tube has the arc's class, and the same
 // path between the middles of the inward chords has it too where the crossings of each step say so. An arc

@@ -26,9 +26,9 @@ RoutingResult route_inside(ArcGraph& graph, const BoundingVolumeHierarchy& solid
 RoutingResult route_inside(ArcGraph& graph, const BoundingVolumeHierarchy& solid, detail::InnerGraph& inner);
 
 // The same for arcs alone: hubs stay, the graph's map is not read, and the paths may be those of any surface
-// within the solid.
+// within the solid. Arcs that are marked in `held`, where it is given, stay as they are.
 RoutingResult route_arcs_inside(ArcGraph& graph, const BoundingVolumeHierarchy& solid,
-                                detail::InnerGraph& inner);
+                                detail::InnerGraph& inner, const std::vector<bool>& held = {});
 
 // Edges of the arcs that meet the surface. A query a point.
 Index count_crossing_edges(const ArcGraph& graph, const BoundingVolumeHierarchy& solid);

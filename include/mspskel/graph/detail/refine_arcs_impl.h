@@ -85,11 +85,12 @@ class ArcRefinement {
       counts_.routing.routed += again.routed;
       counts_.routing.unroutable = again.unroutable;
     }
-    if (counts_.routing.unroutable > 0) {
-      counts_.pruned += remove_crossing_leaves(graph_, solid_);
-      counts_.routing.unroutable = count_crossing_edges(graph_, solid_);
-    }
+    if (counts_.routing.unroutable > 0) counts_.pruned += remove_crossing_leaves(graph_, solid_);
     counts_.classes = route_by_class(graph_, classes_.tubes, input_, solid_, classes_.crossings, execution_);
+    // That moves hubs, and leaf arcs have to follow.
+    if (counts_.classes.checked > 0)
+      counts_.routing.routed += route_arcs_inside(graph_, solid_, inner_, arcs_of_cycles(graph_)).routed;
+    counts_.routing.unroutable = count_crossing_edges(graph_, solid_);
     keep_type("routing inside");
   }
   void aim() {

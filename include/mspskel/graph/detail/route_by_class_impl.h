@@ -91,30 +91,6 @@ class ChordPoints {
   std::unordered_map<std::int64_t, Point> points_;
 };
 
-// Arcs that are left when leaf arcs are taken away for as long as there are any.
-inline std::vector<bool> arcs_of_cycles(const ArcGraph& graph) {
-  std::vector<bool> in(graph.arcs.size());
-  for (std::size_t a = 0; a < in.size(); ++a) in[a] = graph.arcs[a].alive;
-  const auto at = graph.incidence();
-  std::vector<std::size_t> degree(at.size());
-  std::vector<Index> leaves;
-  for (std::size_t h = 0; h < at.size(); ++h) {
-    degree[h] = at[h].size();
-    if (degree[h] == 1) leaves.push_back(static_cast<Index>(h));
-  }
-  while (!leaves.empty()) {
-    const Index leaf = leaves.back();
-    leaves.pop_back();
-    for (const Index a : at[leaf]) {
-      if (!in[a]) continue;
-      in[a] = false;
-      const Index other = graph.arcs[a].hub[0] == leaf ? graph.arcs[a].hub[1] : graph.arcs[a].hub[0];
-      if (--degree[other] == 1) leaves.push_back(other);
-    }
-  }
-  return in;
-}
-
 class TubeRouter {
  public:
   TubeRouter(ArcGraph& graph, const CollapseTubes& tubes, const SurfaceSnapshot& surface,
@@ -423,6 +399,29 @@ class TubeRouter {
 };
 
 }  // namespace detail
+
+MSPSKEL_INLINE std::vector<bool> arcs_of_cycles(const ArcGraph& graph) {
+  std::vector<bool> in(graph.arcs.size());
+  for (std::size_t a = 0; a < in.size(); ++a) in[a] = graph.arcs[a].alive;
+  const auto at = graph.incidence();
+  std::vector<std::size_t> degree(at.size());
+  std::vector<Index> leaves;
+  for (std::size_t h = 0; h < at.size(); ++h) {
+    degree[h] = at[h].size();
+    if (degree[h] == 1) leaves.push_back(static_cast<Index>(h));
+  }
+  while (!leaves.empty()) {
+    const Index leaf = leaves.back();
+    leaves.pop_back();
+    for (const Index a : at[leaf]) {
+      if (!in[a]) continue;
+      in[a] = false;
+      const Index other = graph.arcs[a].hub[0] == leaf ? graph.arcs[a].hub[1] : graph.arcs[a].hub[0];
+      if (--degree[other] == 1) leaves.push_back(other);
+    }
+  }
+  return in;
+}
 
 MSPSKEL_INLINE ClassRouting route_by_class(ArcGraph& graph, const CollapseTubes& tubes,
                                            const SurfaceSnapshot& input, const BoundingVolumeHierarchy& solid,

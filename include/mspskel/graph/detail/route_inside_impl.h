@@ -81,9 +81,11 @@ MSPSKEL_INLINE RoutingResult route_inside(ArcGraph& graph, const BoundingVolumeH
 }
 
 MSPSKEL_INLINE RoutingResult route_arcs_inside(ArcGraph& graph, const BoundingVolumeHierarchy& solid,
-                                               detail::InnerGraph& inner) {
+                                               detail::InnerGraph& inner, const std::vector<bool>& held) {
   RoutingResult result;
-  for (Arc& arc : graph.arcs) {
+  for (std::size_t a = 0; a < graph.arcs.size(); ++a) {
+    if (!held.empty() && held[a]) continue;
+    Arc& arc = graph.arcs[a];
     bool crosses = false;
     for (std::size_t i = 1; i < arc.points.size() && arc.alive && !crosses; ++i)
       crosses = solid.segment_crosses(arc.points[i - 1], arc.points[i]);
