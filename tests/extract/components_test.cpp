@@ -3,6 +3,7 @@
 
 #include "extract/unusual_meshes.h"
 #include "mspskel/extract_skeleton.h"
+#include "mspskel/graph/find_digits.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/mesh/component_solids.h"
 #include "mspskel/samples/samples.h"
@@ -95,6 +96,39 @@ TEST_CASE("A solid keeps clear of its cavities, and a cavity's skeleton lies in 
     if (options.mode == Mode::kDefault) check_inside(result);
     CHECK(result.warnings.size() >= 1);
   }
+}
+
+TEST_CASE("A part with cavities names the component's faces as the part without them does") {
+  // The cavity's faces have the smaller numbers in the whole.
+  PolygonSoup soup = shifted(make_sphere(1.0, {}), 0.2, Vector3::Zero());
+  reverse_orientation(soup);
+  append(soup, make_sphere(1.0, {}));
+  const SurfaceSnapshot whole = snapshot_of(soup);
+  const ComponentSolids solids = find_component_solids(whole);
+  REQUIRE(solids.cavity == std::vector<std::uint8_t>{1, 0});
+  const std::vector<Index>& faces = solids.faces[1];
+  const std::size_t own = faces.size() / 2;
+  const SurfaceSnapshot alone =
+      surface_part(whole, {faces.begin(), faces.begin() + static_cast<std::ptrdiff_t>(own)}, own).surface;
+  const SurfaceSnapshot bounds = surface_part(whole, faces, own).surface;
+  REQUIRE(bounds.face_count() == 2 * alone.face_count());
+  for (Index h = 0; h < alone.halfedge_count(); ++h) {
+    CHECK(bounds.position[bounds.origin[h]] == alone.position[alone.origin[h]]);
+    CHECK(bounds.twin[h] == alone.twin[h]);
+  }
+  for (Index h = 0; h < bounds.halfedge_count(); ++h) CHECK(bounds.twin[bounds.twin[h]] == h);
+
+  // A leaf that ends beside the cavity's wall has no digits, and asks for no face that the surface lacks.
+  const double scale = alone.frame.scale;
+  ArcGraph graph;
+  graph.add_hub(Vector3(0.8, 0, 0) / scale);
+  graph.add_hub(Vector3(0.21, 0, 0) / scale);
+  Arc arc;
+  arc.hub = {0, 1};
+  for (double x = 0.8; x > 0.22; x -= 0.01) arc.points.push_back(Vector3(x, 0, 0) / scale);
+  arc.points.push_back(graph.hub_position[1]);
+  graph.arcs.push_back(arc);
+  CHECK(find_digits(graph, alone, BoundingVolumeHierarchy(bounds), {}).empty());
 }
 
 TEST_CASE("Pieces that cross lie in neither, whichever way they are turned") {

@@ -25,9 +25,10 @@ struct Digit {
 // place of a leaf arc 4 to 12 smallest features before its end. On the surface beyond it digits are the
 // maxima of the inner distance from its middle, told by their persistence as limbs are (find_limb_tips); each
 // goes as far down as it is most slender, before it meets another or the region's end, and is_digit. Two of
-// them are no hand but a cleft (a hoof, a lip, a fish's tail): palms with fewer than three have none. Cost:
-// O(vertices) once a thread, and a segment query for each vertex beyond a palm where straight ways show
-// digits.
+// them are no hand but a cleft (a hoof, a lip, a fish's tail): palms with fewer than three have none. `solid`
+// names the surface's faces by the surface's numbers; what it has beyond these bounds cavities, where no
+// digit ends. Cost: O(vertices) once a thread, and a segment query for each vertex beyond a palm where
+// straight ways show digits.
 std::vector<Digit> find_digits(const ArcGraph& graph, const SurfaceSnapshot& surface,
                                const BoundingVolumeHierarchy& solid, const LimbOptions& options,
                                const Execution& execution = {});

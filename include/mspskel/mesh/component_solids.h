@@ -31,9 +31,10 @@ struct SurfacePart {
   std::vector<Index> vertex;  // of the whole, per vertex of the part
 };
 
-// `faces` are whole components. The part has a frame of its own, measured on the first `measured` faces, so
-// that what a component gets does not depend on the others. Cost: O(vertices of the part · log) and two
-// passes.
+// `faces` are whole components. The first `measured` of them come first in the part too, each list by its
+// numbers: a part with cavities names the faces of the component as the part without them does. The part has
+// a frame of its own, measured on those first faces, so that what a component gets does not depend on the
+// others. Cost: O(vertices of the part · log) and two passes.
 SurfacePart surface_part(const SurfaceSnapshot& surface, const std::vector<Index>& faces,
                          std::size_t measured);
 

@@ -224,6 +224,7 @@ MSPSKEL_INLINE std::vector<Digit> find_digits(const ArcGraph& graph, const Surfa
         const auto palm = detail::find_palm(detail::leaf_points(graph, leaves[i]), solid, options);
         if (!palm) return;
         const Index face = solid.closest(graph.hub_position[leaves[i].tip]).face;
+        if (face == kNone || face >= surface.face_count()) return;  // it ends at the wall of a cavity
         found[i] = search.run(*palm, surface.origin[3 * face]);
       },
       1);

@@ -103,19 +103,26 @@ MSPSKEL_INLINE SurfacePart surface_part(const SurfaceSnapshot& surface, const st
     for (Index h = 3 * f; h < 3 * f + 3; ++h) part.vertex.push_back(surface.origin[h]);
   std::sort(part.vertex.begin(), part.vertex.end());
   part.vertex.erase(std::unique(part.vertex.begin(), part.vertex.end()), part.vertex.end());
-  const auto number = [](const std::vector<Index>& sorted, Index x) {
-    return static_cast<Index>(std::lower_bound(sorted.begin(), sorted.end(), x) - sorted.begin());
+  const auto place_in = [](const std::vector<Index>& list, std::size_t begin, std::size_t end, Index x) {
+    const auto first = list.begin() + static_cast<std::ptrdiff_t>(begin);
+    const auto last = list.begin() + static_cast<std::ptrdiff_t>(end);
+    return static_cast<Index>(std::lower_bound(first, last, x) - list.begin());
   };
   std::vector<Index> sorted = faces;
-  std::sort(sorted.begin(), sorted.end());
+  const auto others = sorted.begin() + static_cast<std::ptrdiff_t>(measured);
+  std::sort(sorted.begin(), others);
+  std::sort(others, sorted.end());
   SurfaceSnapshot& s = part.surface;
   for (const Index v : part.vertex) s.position.push_back(surface.frame.to_model(surface.position[v]));
-  for (const Index f : sorted)
-    for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+  for (std::size_t k = 0; k < sorted.size(); ++k) {
+    // A face and its neighbours are of one component, so they stand in the same of the two lists.
+    const std::size_t begin = k < measured ? 0 : measured, end = k < measured ? measured : sorted.size();
+    for (Index h = 3 * sorted[k]; h < 3 * sorted[k] + 3; ++h) {
       const Index twin = surface.twin[h];
-      s.origin.push_back(number(part.vertex, surface.origin[h]));
-      s.twin.push_back(3 * number(sorted, twin / 3) + twin % 3);
+      s.origin.push_back(place_in(part.vertex, 0, part.vertex.size(), surface.origin[h]));
+      s.twin.push_back(3 * place_in(sorted, begin, end, twin / 3) + twin % 3);
     }
+  }
   if (measured == faces.size()) {
     s.vertex_halfedge.assign(s.position.size(), 0);  // every vertex has faces
     detail::normalise(s);
