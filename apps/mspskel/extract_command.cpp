@@ -10,13 +10,14 @@
 #include "commands.h"
 #include "distinct_files.h"
 #include "extract_settings.h"
+#include "mesh_input.h"
 #include "mspskel/base/error.h"
 #include "mspskel/base/progress.h"
 #include "mspskel/base/stopwatch.h"
+#include "mspskel/graph/end_at_openings.h"
 #include "mspskel/io/atomic_file.h"
 #include "mspskel/io/read_mesh.h"
 #include "mspskel/io/write_skeleton.h"
-#include "mspskel/mesh/build_mesh.h"
 #include "report.h"
 #include "stage_files.h"
 #include "terminal.h"
@@ -59,6 +60,7 @@ void check_outputs(const ExtractSettings& settings) {
     written.push_back({output, "an output"});
   }
   written.push_back({settings.report, "the report"});
+  written.push_back({settings.repair.write_mesh, "the mended mesh"});
   if (!settings.stages.empty()) {
     written.push_back({settings.stages, "the folder of the stages"});
     for (const std::string& path : stage_file_paths(settings.stages))
@@ -67,6 +69,7 @@ void check_outputs(const ExtractSettings& settings) {
   refuse_shared_files({{settings.input, "the mesh"}}, written);
   for (const std::string& output : settings.outputs) check_writable(output);
   if (!settings.report.empty()) check_writable(settings.report);
+  if (!settings.repair.write_mesh.empty()) check_writable(settings.repair.write_mesh);
   if (!settings.stages.empty()) check_folder_writable(settings.stages);
 }
 
@@ -87,7 +90,18 @@ void show_warnings(const ExtractResult& result, Terminal& terminal) {
   for (const std::string& warning : result.warnings) terminal.warning(warning);
 }
 
+void end_at_open_ends(const MeshInput& input, const ExtractOptions& options, ExtractResult& result) {
+  if (input.repair.openings.empty()) return;
+  const BoundingVolumeHierarchy solid(result.surface);
+  const OpeningEnds ends = end_at_openings(result.skeleton, result.surface, solid, input.repair.openings,
+                                           options.refinement.centering.step);
+  if (ends.missing > 0)
+    result.warnings.push_back("the skeleton does not end at " + std::to_string(ends.missing) +
+                              " of the open ends: no way there is straight");
+}
+
 struct Extraction {
+  MeshInput input;
   ExtractResult result;
   bool reported = false;  // as JSON, somewhere
   Json facts;             // if so
@@ -97,12 +111,14 @@ struct Extraction {
 Extraction extract_and_check(const ExtractSettings& settings, const Cancellation& cancellation,
                              ProgramSeconds& seconds) {
   const Stopwatch reading;
-  const BuiltMesh input = build_mesh_with_report(read_polygon_soup(settings.input));
+  Extraction made;
+  made.input = prepare_mesh(read_polygon_soup(settings.input), settings.repair);
+  const BuiltMesh& input = made.input.built;
   seconds.read = reading.seconds();
   cancellation.throw_if_requested();
-  Extraction made;
   made.result = extract_skeleton(input.mesh, settings.options);
   ExtractResult& result = made.result;
+  end_at_open_ends(made.input, settings.options, result);
   result.warnings.insert(result.warnings.begin(), input.warnings.begin(), input.warnings.end());
   add_losses(settings, result);
   made.reported = !settings.report.empty() || settings.verbose || writes_json(settings);
@@ -116,15 +132,18 @@ Extraction extract_and_check(const ExtractSettings& settings, const Cancellation
   Verdict verdict = judge(result.surface, certificate);
   result.warnings.insert(result.warnings.end(), verdict.warnings.begin(), verdict.warnings.end());
   made.failure = std::move(verdict.failure);
-  if (made.reported) made.facts = make_report(settings, result, certificate);
+  if (!made.reported) return made;
+  made.facts = make_report(settings, result, certificate);
+  made.facts["repair"] = repair_facts(made.input);
   return made;
 }
 
 void write_files(const ExtractSettings& settings, const Extraction& made, const Stopwatch& total,
                  ProgramSeconds& seconds, Terminal& terminal) {
   const Stopwatch writing;
+  const CurveSkeleton skeleton = made.input.of_file(made.result.skeleton);
   for (const std::string& output : settings.outputs)
-    write_skeleton(output, made.result.skeleton, made.reported ? report_text(made.facts) : "");
+    write_skeleton(output, skeleton, made.reported ? report_text(made.facts) : "");
   if (!settings.stages.empty()) write_stage_files(settings.stages, made.result);
   seconds.write = writing.seconds();
   seconds.total = total.seconds();

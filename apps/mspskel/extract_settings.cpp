@@ -167,6 +167,7 @@ bool parse_extract_settings(const std::vector<std::string>& arguments, ExtractSe
   line.flag("-q,--quiet", settings.quiet, "no warnings, no progress");
   line.flag("-v,--verbose", settings.verbose, "a word about every stage");
   line.flag("--version", version, "print the version and the libraries' versions and exit");
+  add_repair_options(line, settings.repair);
   int planes = options.slices == SliceMethod::kSearch ? options.search.angles : options.sampling.planes;
   const double usual_step = options.refinement.centering.step;
   double step = usual_step, detail = 1;
@@ -180,6 +181,7 @@ bool parse_extract_settings(const std::vector<std::string>& arguments, ExtractSe
     return false;
   }
   if (settings.input.empty()) throw UsageError("which mesh? usage: mspskel IN [OUT...] [options]");
+  settings.repair.resolve();
   options.cone.seed = seed;
   if (line.given("--slices")) options.search.angles = options.sampling.planes = planes;
   if (step != usual_step) options.refinement.node_spacing = step;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "command_line.h"
+#include "mesh_input.h"
 #include "mspskel/extract_skeleton.h"
 #include "terminal.h"
 
@@ -20,6 +21,7 @@ struct ExtractSettings {
   bool keep_failed = false;
   bool quiet = false;
   bool verbose = false;
+  RepairSettings repair;
   ExtractOptions options;
   Json values;  // of all options, for the report
 

@@ -1,0 +1,42 @@
+// The mesh that a user gave, made usable: as it is where it is closed, else mended.
+#pragma once
+
+#include <string>
+
+#include "command_line.h"
+#include "mspskel/graph/curve_skeleton.h"
+#include "mspskel/mesh/build_mesh.h"
+#include "mspskel/repair/mend_soup.h"
+
+namespace mspskel::cli {
+
+struct RepairSettings {
+  bool repair = true;
+  MendOptions options;
+  std::string components = "0.025";  // as given; resolve() reads it
+  std::string write_mesh;            // file for the surface that the skeleton belongs to; empty: none
+
+  // Sets what --components says. Throws UsageError.
+  void resolve();
+};
+
+// The group "Repair".
+void add_repair_options(CommandLine& line, RepairSettings& settings);
+
+struct MeshInput {
+  BuiltMesh built;
+  bool mended = false;
+  MendedSoup repair;  // of a mended one, without its soup
+
+  // The skeleton with the map of the vertices that the file has.
+  CurveSkeleton of_file(const CurveSkeleton& skeleton) const;
+};
+
+// A closed, manifold mesh comes through as build_mesh leaves it, unless the settings ask for more; any other
+// is mended, which the first warning sums up. Writes settings.write_mesh. Throws MeshError, WriteError.
+MeshInput prepare_mesh(const PolygonSoup& soup, const RepairSettings& settings);
+
+// What was done, for the report.
+Json repair_facts(const MeshInput& input);
+
+}  // namespace mspskel::cli

@@ -1,0 +1,80 @@
+"""Meshes that are not closed are mended, and the program says what it did."""
+import json
+import math
+import unittest
+
+from program import DONE, MESH, TETRAHEDRON, USAGE, ProgramTest
+
+
+def read_off(path):
+    words = path.read_text().split()
+    points, faces = int(words[1]), int(words[2])
+    numbers = words[4:]
+    place = [tuple(map(float, numbers[3 * i:3 * i + 3])) for i in range(points)]
+    rest = numbers[3 * points:]
+    return place, [tuple(map(int, rest[4 * i + 1:4 * i + 4])) for i in range(faces)]
+
+
+def write_off(path, points, faces):
+    lines = [f"OFF\n{len(points)} {len(faces)} 0"]
+    lines += [" ".join(map(repr, p)) for p in points] + [" ".join(map(str, (3, *f))) for f in faces]
+    path.write_text("\n".join(lines) + "\n")
+
+
+class Repair(ProgramTest):
+    def mended(self, *arguments):
+        """The one line that sums up what was done."""
+        result = self.run_program(*arguments)
+        message = result.stderr.decode()
+        self.assertEqual(result.returncode, DONE, message)
+        lines = [line for line in message.splitlines() if line.startswith("mspskel: warning: mended: ")]
+        self.assertEqual(len(lines), 1, message)
+        return lines[0]
+
+    def open_tube(self):
+        points, faces = read_off(self.folder / self.sample("tube", 800))
+        top, low = max(p[2] for p in points), min(p[2] for p in points)
+        wall = [f for f in faces if not all(points[v][2] > top - 1e-9 or points[v][2] < low + 1e-9 for v in f)]
+        write_off(self.folder / "open.off", points, wall)
+        return len(points), top, low
+
+    def test_hole_is_closed_and_the_surface_written(self):
+        self.write("open.off", TETRAHEDRON.replace("4 4 0", "4 3 0").replace("3 2 0 3\n", ""))
+        line = self.mended("open.off", "a.skel", "--write-mesh", "closed.off", "--report", "a.json")
+        self.assertIn("1 hole closed", line)
+        self.assertEqual(len(read_off(self.folder / "closed.off")[1]), 4)
+        report = json.loads((self.folder / "a.json").read_text())
+        self.assertEqual(report["repair"]["holes"], 1)
+        self.succeed("check", "closed.off", "a.skel")
+
+    def test_skeleton_ends_at_open_ends(self):
+        count, top, low = self.open_tube()
+        self.assertIn("2 open ends", self.mended("open.off", "a.json", "a.obj", "--report", "report.json"))
+        openings = json.loads((self.folder / "report.json").read_text())["repair"]["openings"]
+        self.assertEqual(len(openings), 2)
+        ends = [tuple(map(float, line.split()[1:4]))
+                for line in (self.folder / "a.obj").read_text().splitlines() if line.startswith("v ")]
+        for opening in openings:
+            self.assertAlmostEqual(opening["radius"], 1, delta=0.05)
+            self.assertLess(min(math.dist(opening["centre"], end) for end in ends), 0.05)
+        self.assertEqual({round(o["centre"][2], 3) for o in openings}, {round(top, 3), round(low, 3)})
+
+    def test_options(self):
+        self.open_tube()
+        self.assertIn("2 holes", self.fail_with(MESH, "open.off", "a.skel", "--open", "fail"))
+        self.assertIn("2 holes closed", self.mended("open.off", "a.skel", "--open", "cap"))
+        self.fail_with(MESH, "open.off", "b.skel", "--repair", "off")
+        self.assertIn("--components", self.fail_with(USAGE, "open.off", "b.skel", "--components", "some"))
+
+    def test_flat_sheet_is_refused_with_a_remedy(self):
+        self.write("sheet.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n")
+        self.assertIn("thickness", self.fail_with(MESH, "sheet.off", "a.skel"))
+
+    def test_closed_mesh_is_left_alone(self):
+        mesh = self.sample("capsule")
+        self.succeed(mesh, "a.skel", "--write-mesh", "same.off")
+        self.assertEqual(read_off(self.folder / mesh), read_off(self.folder / "same.off"))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,312 @@
+// Whatever a file holds becomes a closed surface of the right pieces, or is refused.
+#include "mspskel/repair/mend_soup.h"
+
+#include <catch2/catch.hpp>
+
+#include "mspskel/base/error.h"
+#include "mspskel/mesh/build_mesh.h"
+#include "mspskel/mesh/mesh_report.h"
+#include "support/meshes.h"
+#include "topology/voxel_solids.h"
+
+using namespace mspskel;
+using namespace mspskel::test;
+using Catch::Contains;
+
+namespace {
+
+struct Facts {
+  Index components, genus;
+  double volume;
+};
+
+// Throws if the soup is not what build_mesh takes.
+Facts facts_of(const MendedSoup& mended) {
+  const BuiltMesh built = build_mesh_with_report(mended.soup);
+  const MeshReport report = report_mesh(make_snapshot(built.mesh), {0});
+  return {built.component_count, report.genus, report.signed_volume};
+}
+
+bool same(const PolygonSoup& a, const PolygonSoup& b) {
+  return a.points == b.points && a.corners == b.corners && a.begin == b.begin;
+}
+
+// Every face gets points of its own.
+PolygonSoup split(const PolygonSoup& soup) {
+  PolygonSoup result;
+  for (std::size_t f = 0; f < soup.polygon_count(); ++f) {
+    for (Index i = soup.begin[f]; i < soup.begin[f + 1]; ++i) {
+      result.corners.push_back(static_cast<Index>(result.points.size()));
+      result.points.push_back(soup.points[soup.corners[i]]);
+    }
+    result.begin.push_back(static_cast<Index>(result.corners.size()));
+  }
+  return result;
+}
+
+template <class Predicate>
+PolygonSoup without_faces(const PolygonSoup& soup, Predicate drop) {
+  PolygonSoup result;
+  result.points = soup.points;
+  for (std::size_t f = 0; f < soup.polygon_count(); ++f) {
+    const Index* c = soup.corners.data() + soup.begin[f];
+    if (!drop((soup.points[c[0]] + soup.points[c[1]] + soup.points[c[2]]) / 3))
+      result.add_triangle(c[0], c[1], c[2]);
+  }
+  return result;
+}
+
+PolygonSoup torus_soup() { return to_soup(torus(1, 0.4, 40, 20)); }
+// From z = 0 to 6, radius 1.
+PolygonSoup tube_soup() { return to_soup(tube(1, 6, 24, 12)); }
+
+PolygonSoup cells(std::initializer_list<Cell> list) {
+  VoxelSolid solid;
+  for (const Cell& c : list) solid.cells.insert(c);
+  return boundary(solid);
+}
+
+double height(const PolygonSoup& soup, bool top) {
+  double z = soup.points[0].z();
+  for (const Vector3& p : soup.points) z = top ? std::max(z, p.z()) : std::min(z, p.z());
+  return z;
+}
+
+}  // namespace
+
+TEST_CASE("a closed surface comes through as it is") {
+  const PolygonSoup soup = torus_soup();
+  const MendedSoup mended = mend_soup(soup);
+  REQUIRE(same(mended.soup, soup));
+  REQUIRE(summary(mended).empty());
+  for (Index v = 0; v < static_cast<Index>(soup.points.size()); ++v) REQUIRE(mended.vertex_of_point[v] == v);
+}
+
+TEST_CASE("points of faces that were taken apart are one again, and each finds its vertex") {
+  const PolygonSoup soup = split(torus_soup());
+  const MendedSoup mended = mend_soup(soup);
+  REQUIRE(facts_of(mended).genus == 1);
+  REQUIRE(mended.soup.points.size() == torus_soup().points.size());
+  for (std::size_t v = 0; v < soup.points.size(); ++v)
+    REQUIRE(mended.soup.points[mended.vertex_of_point[v]] == soup.points[v]);
+}
+
+TEST_CASE("points beside each other across a seam are stitched") {
+  PolygonSoup soup = split(torus_soup());
+  Random random(3);
+  for (Vector3& p : soup.points) p += 1e-6 * Vector3(random.uniform(), random.uniform(), random.uniform());
+  const MendedSoup mended = mend_soup(soup);
+  REQUIRE(facts_of(mended).genus == 1);
+  REQUIRE(mended.soup.points.size() == torus_soup().points.size());
+  REQUIRE(mended.counts.holes == 0);
+}
+
+TEST_CASE("faces turned either way agree again") {
+  PolygonSoup soup = torus_soup();
+  const int every = GENERATE(1, 3);
+  for (std::size_t f = 0; f < soup.polygon_count(); f += every)
+    std::swap(soup.corners[3 * f], soup.corners[3 * f + 1]);
+  const Facts facts = facts_of(mend_soup(soup));
+  REQUIRE(facts.genus == 1);
+  REQUIRE(facts.volume > 0);
+}
+
+TEST_CASE("copies of faces, turned alike or opposite, are one") {
+  const PolygonSoup clean = torus_soup();
+  PolygonSoup soup = clean;
+  append(soup, GENERATE(true, false) ? clean : inside_out(clean));
+  const MendedSoup mended = mend_soup(soup);
+  REQUIRE(facts_of(mended).components == 1);
+  REQUIRE(facts_of(mended).genus == 1);
+  REQUIRE(mended.soup.polygon_count() == clean.polygon_count());
+}
+
+TEST_CASE("solids that touch in an edge or a corner are two, and as large as before") {
+  const PolygonSoup soup = GENERATE(cells({{0, 0, 0}, {1, 1, 0}}), cells({{0, 0, 0}, {1, 1, 1}}));
+  const Facts facts = facts_of(mend_soup(soup));
+  REQUIRE(facts.components == 2);
+  REQUIRE(facts.volume == Approx(2).epsilon(0.01));
+}
+
+TEST_CASE("voxels make as many pieces as they have connected over their faces") {
+  Random random(GENERATE(range(1, 9)));
+  VoxelSolid solid;
+  for (int i = 0; i < 125; ++i)
+    if (random.uniform() < 0.45) solid.cells.insert({i % 5, i / 5 % 5, i / 25});
+  std::map<Cell, Index> piece;
+  Index pieces = 0;
+  for (const Cell& seed : solid.cells) {
+    if (piece.count(seed)) continue;
+    std::vector<Cell> stack{seed};
+    piece[seed] = pieces;
+    while (!stack.empty()) {
+      const Cell c = stack.back();
+      stack.pop_back();
+      for (int k = 0; k < 6; ++k) {
+        Cell d = c;
+        d[k / 2] += k % 2 ? 1 : -1;
+        if (solid.cells.count(d) && piece.insert({d, pieces}).second) stack.push_back(d);
+      }
+    }
+    ++pieces;
+  }
+  MendOptions all;
+  all.smallest_component = 0;
+  const MendedSoup mended = mend_soup(boundary(solid), all);
+  const BuiltMesh built = build_mesh_with_report(mended.soup);
+  const MeshReport report = report_mesh(make_snapshot(built.mesh), {0});
+  const Index cavities = report.cavities;
+  REQUIRE(built.component_count - cavities == pieces);
+  REQUIRE(report.signed_volume == Approx(static_cast<double>(solid.cells.size())).epsilon(0.01));
+  REQUIRE(report.degenerate_faces == 0);
+}
+
+TEST_CASE("solids joined by a wall that both have are one") {
+  PolygonSoup soup = cells({{0, 0, 0}});
+  append(soup, cells({{1, 0, 0}}));
+  const MendedSoup mended = mend_soup(soup);
+  REQUIRE(facts_of(mended).components == 1);
+  REQUIRE(facts_of(mended).volume == Approx(2));
+  REQUIRE(mended.counts.two_sided_faces == 2);
+}
+
+TEST_CASE("a flap goes, and so does a wall within") {
+  PolygonSoup soup = cells({{0, 0, 0}, {1, 0, 0}});
+  const auto at = [&](double x, double y, double z) {
+    for (std::size_t v = 0; v < soup.points.size(); ++v)
+      if (soup.points[v] == Vector3(x, y, z)) return static_cast<Index>(v);
+    soup.points.emplace_back(x, y, z);
+    return static_cast<Index>(soup.points.size() - 1);
+  };
+  if (GENERATE(true, false)) {
+    soup.add_triangle(at(1, 0, 0), at(1, 1, 0), at(1, 0.5, -1));
+  } else {
+    soup.add_triangle(at(1, 0, 0), at(1, 1, 0), at(1, 1, 1));
+    soup.add_triangle(at(1, 0, 0), at(1, 1, 1), at(1, 0, 1));
+  }
+  const Facts facts = facts_of(mend_soup(soup));
+  REQUIRE(facts.components == 1);
+  REQUIRE(facts.genus == 0);
+  REQUIRE(facts.volume == Approx(2));
+}
+
+TEST_CASE("holes in a wall are closed and are no openings") {
+  const PolygonSoup clean = to_soup(sphere(2000));
+  const PolygonSoup soup =
+      without_faces(clean, [](const Vector3& p) { return p.z() > 0.9 || p.x() > 0.95 || p.y() < -0.98; });
+  const MendedSoup mended = mend_soup(soup);
+  REQUIRE(mended.counts.holes == 3);
+  REQUIRE(mended.openings.empty());
+  REQUIRE(facts_of(mended).genus == 0);
+  REQUIRE(facts_of(mended).volume == Approx(4.18).epsilon(0.05));
+}
+
+TEST_CASE("holes that touch at a point leave the surface one") {
+  const PolygonSoup soup = without_faces(torus_soup(), [](const Vector3& p) {
+    return (std::abs(p.x()) + std::abs(p.y()) > 1.6) && std::sin(40 * p.z()) > 0.5;
+  });
+  const Facts facts = facts_of(mend_soup(soup));
+  REQUIRE(facts.components == 1);
+  REQUIRE(facts.genus == 1);
+}
+
+TEST_CASE("open ends of a tube are openings with centre, normal and radius") {
+  const PolygonSoup clean = tube_soup();
+  const double low = height(clean, false), high = height(clean, true);
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Vector3(1, 2, 3).normalized()).toRotationMatrix();
+  const Vector3 shift(5, -3, 2);
+  PolygonSoup soup =
+      moved(without_faces(clean, [&](const Vector3& p) { return p.z() < low + 1e-9 || p.z() > high - 1e-9; }),
+            turn, shift);
+  if (GENERATE(true, false)) soup = inside_out(soup);
+  const MendedSoup mended = mend_soup(soup);
+  REQUIRE(mended.openings.size() == 2);
+  for (const Opening& opening : mended.openings) {
+    const Vector3 local = turn.transpose() * (opening.centre - shift);
+    const bool top = local.z() > (low + high) / 2;
+    REQUIRE((local - Vector3(0, 0, top ? high : low)).norm() < 0.01);
+    REQUIRE((turn.transpose() * opening.normal - Vector3(0, 0, top ? 1 : -1)).norm() < 0.01);
+    REQUIRE(opening.radius == Approx(1).epsilon(0.02));
+    REQUIRE(mended.soup.points[opening.vertex] == opening.centre);
+  }
+  MendOptions options;
+  options.open = OpenEnds::kCap;
+  REQUIRE(mend_soup(soup, options).openings.empty());
+  options.open = OpenEnds::kFail;
+  REQUIRE_THROWS_WITH(mend_soup(soup, options), Contains("2 holes"));
+}
+
+TEST_CASE("crumbs go unless they are wanted") {
+  PolygonSoup soup = torus_soup();
+  append(soup, moved(to_soup(scaled(tetrahedron(), 0.02)), Eigen::Matrix3d::Identity(), {3, 0, 0}));
+  append(soup, moved(to_soup(scaled(tetrahedron(), 0.5)), Eigen::Matrix3d::Identity(), {-3, 0, 0}));
+  const auto pieces = [&](double share) {
+    MendOptions options;
+    options.smallest_component = share;
+    return facts_of(mend_soup(soup, options)).components;
+  };
+  REQUIRE(pieces(0) == 3);
+  REQUIRE(pieces(MendOptions().smallest_component) == 2);
+  REQUIRE(pieces(1) == 1);
+  const MendedSoup mended = mend_soup(soup);
+  REQUIRE(mended.vertex_of_point[torus_soup().points.size()] == kNone);
+}
+
+TEST_CASE("what encloses nothing is refused with a remedy") {
+  PolygonSoup soup;
+  soup.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+  REQUIRE_THROWS_WITH(mend_soup(soup), Contains("points and lines"));
+  soup.add_triangle(0, 1, 2);
+  REQUIRE_THROWS_WITH(mend_soup(soup), Contains("1 triangle") && Contains("thickness"));
+  soup.add_triangle(1, 3, 2);
+  REQUIRE_THROWS_AS(mend_soup(soup), MeshError);
+}
+
+TEST_CASE("a surface of one side is cut, not refused") {
+  PolygonSoup soup;  // a strip with half a turn
+  constexpr Index kLong = 30;
+  for (Index i = 0; i < kLong; ++i) {
+    const double turn = 2 * kPi * i / kLong;
+    const Vector3 out(std::cos(turn), std::sin(turn), 0);
+    const Vector3 across = 0.3 * (std::cos(turn / 2) * out + std::sin(turn / 2) * Vector3::UnitZ());
+    soup.points.push_back(out + across);
+    soup.points.push_back(out - across);
+  }
+  for (Index i = 0; i < kLong; ++i) {
+    const bool last = i + 1 == kLong;
+    const Index a = 2 * i, b = a + 1, c = last ? 1 : a + 2, d = last ? 0 : a + 3;
+    soup.add_triangle(a, b, c);
+    soup.add_triangle(b, d, c);
+  }
+  try {
+    facts_of(mend_soup(soup));
+  } catch (const MeshError& error) {
+    REQUIRE_THAT(error.what(), Contains("no volume"));
+  }
+}
+
+TEST_CASE("whatever comes out of a random soup is closed and manifold, on distinct points") {
+  Random random(GENERATE(range(1, 401)));
+  PolygonSoup soup;
+  const auto pick = [&](Index count) { return static_cast<Index>(random.uniform() * count); };
+  const Index points = 4 + pick(12), faces = 4 + pick(40);
+  for (Index v = 0; v < points; ++v)  // on a coarse grid: many coincide, many faces have no area
+    soup.points.emplace_back(pick(3), pick(3), pick(3));
+  for (Index f = 0; f < faces; ++f) {
+    for (Index k = 0; k < 2 + pick(5); ++k) soup.corners.push_back(pick(points));
+    soup.begin.push_back(static_cast<Index>(soup.corners.size()));
+  }
+  try {
+    const MendedSoup mended = mend_soup(soup);
+    const BuiltMesh built = build_mesh_with_report(mended.soup);
+    REQUIRE(built.component_count > 0);
+    std::vector<std::array<double, 3>> places;
+    for (const Vector3& p : mended.soup.points) places.push_back({p[0], p[1], p[2]});
+    std::sort(places.begin(), places.end());
+    REQUIRE(std::adjacent_find(places.begin(), places.end()) == places.end());
+    for (const Index v : mended.vertex_of_point)
+      REQUIRE((v == kNone || (v >= 0 && v < static_cast<Index>(mended.soup.points.size()))));
+  } catch (const MeshError& error) {
+    REQUIRE_THAT(error.what(), Contains("no volume") || Contains("no face with an area"));
+  }
+}
