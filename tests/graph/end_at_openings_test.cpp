@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "mspskel/extract_skeleton.h"
+#include "mspskel/graph/surface_map.h"
 #include "mspskel/mesh/build_mesh.h"
 #include "mspskel/repair/mend_soup.h"
 #include "support/meshes.h"
