@@ -64,17 +64,16 @@ class ObjText {
     soup_.begin.push_back(static_cast<Index>(soup_.corners.size()));
   }
 
-  // i, i/t, i//n or i/t/n; a negative index counts from the last point read. Later points may be named too:
-  // `largest_` is checked at the end.
+  // i, i/t, i//n or i/t/n, the parts after i also empty; a negative index counts from the last point read.
+  // Later points may be named too: `largest_` is checked at the end.
   Index read_corner() {
     const char* start = scan_.position();
     const char* p = start;
     const std::int64_t index = integer(p);
-    if (p != end_ && *p == '/') {
+    for (int part = 0; part < 2 && p != end_ && *p == '/'; ++part) {
       ++p;
-      const bool texture = p != end_ && *p != '/';
-      if (texture) integer(p);
-      if (p != end_ && *p == '/') integer(++p);
+      const bool empty = p == end_ || *p == '/' || static_cast<unsigned char>(*p) <= ' ';
+      if (!empty) integer(p);
     }
     if (p != end_ && static_cast<unsigned char>(*p) > ' ' && *p != '#' && *p != '\\') fail_corner();
     scan_.seek(p);

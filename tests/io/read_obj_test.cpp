@@ -37,7 +37,7 @@ TEST_CASE("OBJ lines go on after a backslash") {
 }
 
 TEST_CASE("OBJ corners: texture and normal indices, negative indices") {
-  for (const std::string after : {"/7", "//8", "/7/8", "/-1/-1"}) {
+  for (const std::string after : {"/7", "//8", "/7/8", "/-1/-1", "/7/", "//", "/"}) {
     std::string faces = kFaces;
     for (const char* corner : {"1", "2", "3", "4"})
       faces = replace_all(faces, std::string(" ") + corner, " @" + std::string(corner) + after);
@@ -69,6 +69,6 @@ TEST_CASE("OBJ defects are named with their line") {
   check_refused(kPoints + "f\n", "line 5", "the end of the line");
   check_refused(kPoints + "f 1 2 3.5\n", "line 5", "'3.5'");
   check_refused(kPoints + "f 1/x 2 3\n", "line 5", "'1/x'");
-  check_refused(kPoints + "f 1/1/ 2 3\n", "line 5", "'1/1/'");
+  check_refused(kPoints + "f 1/1/1/ 2 3\n", "line 5", "'1/1/1/'");
   check_refused(kPoints + "f a b c\n", "line 5", "'a'");
 }

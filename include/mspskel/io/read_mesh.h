@@ -16,8 +16,8 @@ enum class MeshFormat { kOff, kObj, kPly, kStl };
 //   OFF  with or without its keyword, in any case; ST, C, N, 4 (x/w, y/w, z/w) and n (of dimension 3) before
 //        it, in any order; text and BINARY; the number of edges may be absent; face colours up to the end of
 //        the line
-//   OBJ  v (what follows x y z is ignored) and f (i, i/t, i//n, i/t/n, negative too); lines may continue
-//        after a backslash; every other record is skipped
+//   OBJ  v (what follows x y z is ignored) and f (i, i/t, i//n, i/t/n, negative too, and what follows i may
+//        be empty); lines may continue after a backslash; every other record is skipped
 //   PLY  ascii and binary of both byte orders; elements vertex (x y z), face and tristrips (strips of
 //        triangles, -1 between them), each with vertex_indices or vertex_index; the rest is skipped
 //   STL  text and binary, told apart by size before the word "solid"; corners with equal coordinates (-0
