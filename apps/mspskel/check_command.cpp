@@ -6,6 +6,7 @@
 #include "command_line.h"
 #include "commands.h"
 #include "distinct_files.h"
+#include "mesh_input.h"
 #include "mspskel/base/counted.h"
 #include "mspskel/base/error.h"
 #include "mspskel/graph/check_skeleton.h"
@@ -73,6 +74,7 @@ int check_command(const std::vector<std::string>& arguments) {
   double least_inside = 1;
   bool quiet = false;
   Execution execution;
+  RepairSettings repair;
   CommandLine line(
       "check MESH SKELETON [options]",
       "Verifies a skeleton against its mesh: pieces, cycles, containment, centredness, radius.",
@@ -83,12 +85,15 @@ int check_command(const std::vector<std::string>& arguments) {
   line.text("--json", json_path, "FILE", "the figures as JSON; - for stdout, in place of the text");
   line.flag("-q,--quiet", quiet, "no text, only the exit status");
   line.number("-t,--threads", execution.threads, {0, 4096}, "0: as many as the machine has");
+  add_repair_options(line, repair);
   if (!line.parse(arguments)) return 0;
+  repair.resolve();
 
   refuse_shared_files({{mesh_path, "the mesh"}, {skeleton_path, "the skeleton"}},
                       {{json_path, "the figures"}});
-  const SurfaceSnapshot surface = make_snapshot(read_mesh(mesh_path));
-  const CurveSkeleton skeleton = read_skeleton(skeleton_path);
+  const MeshInput input = prepare_mesh(read_polygon_soup(mesh_path), repair);
+  const SurfaceSnapshot surface = make_snapshot(input.built.mesh);
+  const CurveSkeleton skeleton = input.of_surface(read_skeleton(skeleton_path));
   const BoundingVolumeHierarchy solid(surface);
   const SkeletonChecks checks = check_skeleton(surface, solid, skeleton, execution);
   const TopologyCertificate certificate =
@@ -101,7 +106,6 @@ int check_command(const std::vector<std::string>& arguments) {
   if (inside) return 0;
   throw NoSkeletonError(verdict.warnings.empty() ? "the skeleton leaves the solid"
                                                  : verdict.warnings.front());
-  return 0;
 }
 
 }  // namespace mspskel::cli

@@ -168,6 +168,8 @@ bool parse_extract_settings(const std::vector<std::string>& arguments, ExtractSe
   line.flag("-v,--verbose", settings.verbose, "a word about every stage");
   line.flag("--version", version, "print the version and the libraries' versions and exit");
   add_repair_options(line, settings.repair);
+  line.text("--write-mesh", settings.repair.write_mesh, "FILE",
+            "the surface that the skeleton belongs to (.off .obj .ply)");
   int planes = options.slices == SliceMethod::kSearch ? options.search.angles : options.sampling.planes;
   const double usual_step = options.refinement.centering.step;
   double step = usual_step, detail = 1;

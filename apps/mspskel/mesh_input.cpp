@@ -44,14 +44,12 @@ void add_repair_options(CommandLine& line, RepairSettings& settings) {
                     "auto: mend it and say what was done; off: refuse it");
   line.text("--components", settings.components, "all|largest|SHARE",
             "pieces that stay: those whose extent is at least this share of the largest one's");
-  line.number("--weld", settings.options.weld, {0, 0.1},
+  line.number("--weld", settings.options.weld, {0, 0.01},
               "points nearer than this share of the extent are one; equal ones always are");
   line.choice<OpenEnds>(
       "--open", settings.options.open,
       {{"ends", OpenEnds::kEnds}, {"cap", OpenEnds::kCap}, {"fail", OpenEnds::kFail}},
       "ends: where a tube is open its skeleton ends, other holes are closed; cap: all are; fail: refuse");
-  line.text("--write-mesh", settings.write_mesh, "FILE",
-            "the surface that the skeleton belongs to (.off .obj .ply)");
 }
 
 CurveSkeleton MeshInput::of_file(const CurveSkeleton& skeleton) const {
@@ -60,6 +58,16 @@ CurveSkeleton MeshInput::of_file(const CurveSkeleton& skeleton) const {
   result.node_of_vertex.clear();
   for (const Index v : repair.vertex_of_point)
     result.node_of_vertex.push_back(v == kNone ? kNone : skeleton.node_of_vertex[v]);
+  return result;
+}
+
+CurveSkeleton MeshInput::of_surface(const CurveSkeleton& skeleton) const {
+  CurveSkeleton result = skeleton;
+  if (!mended || skeleton.node_of_vertex.size() != repair.vertex_of_point.size()) return result;
+  result.node_of_vertex.assign(built.mesh.n_vertices(), kNone);
+  for (std::size_t p = 0; p < repair.vertex_of_point.size(); ++p)
+    if (repair.vertex_of_point[p] != kNone)
+      result.node_of_vertex[repair.vertex_of_point[p]] = skeleton.node_of_vertex[p];
   return result;
 }
 
@@ -79,6 +87,7 @@ MeshInput prepare_mesh(const PolygonSoup& soup, const RepairSettings& settings) 
       input = mend(soup, settings);
     }
   }
+  input.built.warnings.insert(input.built.warnings.begin(), soup.warnings.begin(), soup.warnings.end());
   if (!settings.write_mesh.empty()) write_mesh(settings.write_mesh, input.built.mesh);
   return input;
 }

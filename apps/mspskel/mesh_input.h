@@ -20,7 +20,7 @@ struct RepairSettings {
   void resolve();
 };
 
-// The group "Repair".
+// The group "Repair", apart from --write-mesh.
 void add_repair_options(CommandLine& line, RepairSettings& settings);
 
 struct MeshInput {
@@ -30,6 +30,8 @@ struct MeshInput {
 
   // The skeleton with the map of the vertices that the file has.
   CurveSkeleton of_file(const CurveSkeleton& skeleton) const;
+  // The other way round; vertices that mending added have no node.
+  CurveSkeleton of_surface(const CurveSkeleton& skeleton) const;
 };
 
 // A closed, manifold mesh comes through as build_mesh leaves it, unless the settings ask for more; any other

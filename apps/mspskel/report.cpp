@@ -92,6 +92,7 @@ Json make_report(const ExtractSettings& settings, const ExtractResult& result,
 Json with_costs(const Json& report, const ExtractSettings& settings, const ExtractResult& result,
                 const ProgramSeconds& seconds) {
   return {{"input", report["input"]},
+          {"repair", report["repair"]},
           {"options", settings.values},
           {"counts", report["counts"]},
           {"seconds", stage_seconds(result, seconds)},

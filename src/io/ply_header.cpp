@@ -56,10 +56,11 @@ class HeaderReader {
   }
 
  private:
-  // The header's line break tells how many bytes end its last line; the data may start with any byte.
-  void find_line_break() {
-    const std::size_t at = static_cast<std::size_t>(scan_.position() - bytes_.data());
-    line_break_ = bytes_.substr(at, 2) == "\r\n" ? 2 : 1;
+  // Data may start with any byte, a line feed too: after a carriage return that ends the header's last line,
+  // it belongs to the data only where carriage returns alone end its first line.
+  void find_line_break() { only_returns_ = next_two() != "\r\n" && next_two().substr(0, 1) == "\r"; }
+  std::string_view next_two() const {
+    return bytes_.substr(static_cast<std::size_t>(scan_.position() - bytes_.data()), 2);
   }
   void end_line() {
     if (scan_.skip_spaces()) scan_.fail(scan_.position(), "unexpected " + scan_.quoted(scan_.position()));
@@ -158,7 +159,8 @@ class HeaderReader {
   }
   void finish() {
     const char* at = scan_.position();
-    header_.size = std::min(bytes_.size(), static_cast<std::size_t>(at - bytes_.data()) + line_break_);
+    const std::size_t line_break = !only_returns_ && next_two() == "\r\n" ? 2 : 1;
+    header_.size = std::min(bytes_.size(), static_cast<std::size_t>(at - bytes_.data()) + line_break);
     const bool mesh = content_ == PlyContent::kMesh;
     for (const Element& element : header_.elements) {
       if (element.name == "vertex" && count_roles(element, Role::kX, Role::kZ) != 3)
@@ -176,7 +178,7 @@ class HeaderReader {
   PlyContent content_;
   TextScanner scan_;
   PlyHeader header_;
-  std::size_t line_break_ = 1;
+  bool only_returns_ = false;  // end the lines
 };
 
 }  // namespace

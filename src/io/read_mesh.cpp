@@ -56,6 +56,11 @@ std::optional<MeshFormat> format_of_content(std::string_view bytes) {
   return std::nullopt;
 }
 
+bool is_utf16(std::string_view bytes) {
+  const std::string_view mark = bytes.substr(0, 2);
+  return (mark == "\xFF\xFE" || mark == "\xFE\xFF") && !is_binary_stl(bytes);
+}
+
 const char* name_of(MeshFormat format) {
   static constexpr const char* kNames[] = {"OFF", "OBJ", "PLY", "STL"};
   return kNames[static_cast<int>(format)];
@@ -79,6 +84,7 @@ PolygonSoup read_polygon_soup(std::string_view bytes, MeshFormat format) {
 PolygonSoup read_polygon_soup(const std::string& path) {
   const std::string bytes = detail::read_bytes(path);
   const std::string name = path == "-" ? "standard input" : path;
+  if (is_utf16(bytes)) throw ReadError(name + ": the text is UTF-16; save it as UTF-8 or ASCII");
   const auto by_content = format_of_content(bytes);
   const auto by_extension = path == "-" ? std::nullopt : format_of_extension(detail::extension_of(path));
   if (!by_extension && !by_content)

@@ -1,10 +1,12 @@
 // Geomview's Object File Format: [ST][C][N][4][n]OFF [BINARY], counts, points, polygons.
+#include <exception>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "byte_reader.h"
 #include "mesh_parsers.h"
+#include "mspskel/base/counted.h"
 #include "text_scanner.h"
 
 namespace mspskel::detail {
@@ -97,7 +99,9 @@ class OffText {
     for (std::uint64_t v = 0; v < points_; ++v) read_point(layout.vertex_lines);
     for (std::uint64_t f = 0; f < polygons_; ++f) read_polygon(layout.face_colours);
     if (scan_.skip_blank())
-      scan_.fail(scan_.position(), "there is more after the last of " + std::to_string(polygons_) + " faces");
+      soup_.warnings.push_back(scan_.located(
+          scan_.position(),
+          "what follows the last of " + counted(static_cast<long long>(polygons_), "face") + " is left out"));
     return std::move(soup_);
   }
 
@@ -177,19 +181,26 @@ PolygonSoup parse_text(TextScanner scan, const OffHeader& header) {
   const std::uint64_t polygons = read_count(scan, "the number of faces", 4);
   skip_edge_count(scan);
   const bool lines = header.extra_size() > 0;
+  const auto read = [&](Layout layout) { return OffText(scan, header, points, polygons).read(layout); };
+  std::optional<PolygonSoup> first;
+  std::exception_ptr error;
   try {
-    return OffText(scan, header, points, polygons).read({lines, true});
-  } catch (const ReadError& error) {
-    // Writers disagree on line breaks: points with undeclared extras, wrapped extras, several faces a line.
-    // Every layout has to use up the file exactly, so a wrong one hardly passes.
-    for (const Layout layout : {Layout{!lines, true}, Layout{lines, false}, Layout{!lines, false}}) {
-      try {
-        return OffText(scan, header, points, polygons).read(layout);
-      } catch (const ReadError&) {
-      }
-    }
-    throw error;
+    first = read({lines, true});
+    if (first->warnings.empty()) return std::move(*first);
+  } catch (const ReadError&) {
+    error = std::current_exception();
   }
+  // Writers disagree on line breaks: points with undeclared extras, wrapped extras, several faces a line.
+  // Every other layout has to use up the file exactly, so a wrong one hardly passes.
+  for (const Layout layout : {Layout{!lines, true}, Layout{lines, false}, Layout{!lines, false}}) {
+    try {
+      PolygonSoup soup = read(layout);
+      if (soup.warnings.empty()) return soup;
+    } catch (const ReadError&) {
+    }
+  }
+  if (error) std::rethrow_exception(error);
+  return std::move(*first);
 }
 
 std::uint64_t read_binary_count(ByteReader& reader, const char* name, std::uint64_t bytes_each) {

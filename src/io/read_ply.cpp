@@ -29,6 +29,8 @@ class TextSource {
       if (scan_.word().empty()) scan_.fail_expected("a value");
     }
   }
+  // An element ends with its line: writers put values there that no property declares.
+  void end_item() { scan_.skip_line(); }
   [[noreturn]] void fail(const std::string& message) { scan_.fail(scan_.position(), message); }
 
  private:
@@ -50,6 +52,7 @@ class BinarySource {
     if (count > room_for(size_of(scalar))) reader_.fail("the file ends inside an element");
     reader_.skip(count * size_of(scalar), "an element");
   }
+  void end_item() {}
   [[noreturn]] void fail(const std::string& message) { reader_.fail(message); }
 
  private:
@@ -149,6 +152,7 @@ class BodyReader {
       if (with_radii_) data_.radius.push_back(number[3]);
     }
     if (element.name == "edge" && with_edges_) data_.edges.push_back(edge);
+    source_.end_item();
   }
   std::uint64_t read_list_size(const Property& property) {
     const std::int64_t size = source_.integer(*property.list_size);

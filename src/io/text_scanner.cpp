@@ -4,11 +4,15 @@
 
 namespace mspskel::detail {
 
-void TextScanner::fail(const char* at, const std::string& message) const {
+std::string TextScanner::located(const char* at, const std::string& message) const {
   std::uint64_t line = 1;
   for (const char* p = begin_; p != at; ++p)
     if (*p == '\n' || (*p == '\r' && (p + 1 == end_ || p[1] != '\n'))) ++line;
-  throw ReadError("line " + std::to_string(line) + ": " + message);
+  return "line " + std::to_string(line) + ": " + message;
+}
+
+void TextScanner::fail(const char* at, const std::string& message) const {
+  throw ReadError(located(at, message));
 }
 
 void TextScanner::fail_expected(const std::string& what) const {

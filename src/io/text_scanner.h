@@ -91,6 +91,8 @@ class TextScanner {
   }
 
   // Throws ReadError for the line that holds `at`.
+  // The message with the number of the line.
+  std::string located(const char* at, const std::string& message) const;
   [[noreturn]] void fail(const char* at, const std::string& message) const;
   // "expected WHAT, found WORD", for the word at the scanner's position.
   [[noreturn]] void fail_expected(const std::string& what) const;

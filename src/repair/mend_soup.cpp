@@ -221,8 +221,8 @@ void check_ranges(const PolygonSoup& soup) {
 }  // namespace
 
 void validate(const MendOptions& options) {
-  if (!(options.weld >= 0 && options.weld <= 0.1))
-    throw UsageError("weld must be from 0 to 0.1 of the extent");
+  if (!(options.weld >= 0 && options.weld <= 0.01))
+    throw UsageError("weld must be from 0 to 0.01 of the extent");
   if (!(options.smallest_component >= 0 && options.smallest_component <= 1))
     throw UsageError("smallest component must be from 0 to 1 of the largest");
 }

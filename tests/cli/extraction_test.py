@@ -86,7 +86,7 @@ class Report(ProgramTest):
 
     def test_fields(self):
         report = self.report(self.sample("torus", 600), "a.skel", "--mode", "thesis")
-        self.assertEqual(list(report), ["input", "options", "counts", "seconds", "peak_memory_bytes", "skeleton",
+        self.assertEqual(list(report), ["input", "repair", "options", "counts", "seconds", "peak_memory_bytes", "skeleton",
                                         "checks", "warnings"])
         self.assertEqual((report["input"]["components"], report["input"]["genus"]), (1, 1))
         self.assertEqual(report["input"]["faces"], 2 * report["input"]["vertices"])

@@ -93,7 +93,7 @@ class Kept(ProgramTest):
 class LeftBehind(ProgramTest):
     def test_folder_of_the_stages_goes_with_a_failure(self):
         self.write("open.off", TETRAHEDRON.replace("4 4 0", "4 3 0").replace("3 2 0 3\n", ""))
-        self.fail_with(MESH, "open.off", "a.skel", "--stages", "s/t")
+        self.fail_with(MESH, "open.off", "a.skel", "--stages", "s/t", "--repair", "off")
 
     def test_folder_that_cannot_be_made_shows_before_the_work(self):
         self.write("t.off", "no mesh")

@@ -59,6 +59,12 @@ class Repair(ProgramTest):
             self.assertLess(min(math.dist(opening["centre"], end) for end in ends), 0.05)
         self.assertEqual({round(o["centre"][2], 3) for o in openings}, {round(top, 3), round(low, 3)})
 
+    def test_check_mends_as_the_extraction_did(self):
+        self.open_tube()
+        self.mended("open.off", "a.skel")
+        self.succeed("check", "open.off", "a.skel", "-q")
+        self.assertIn("2 holes", self.fail_with(MESH, "check", "open.off", "a.skel", "--open", "fail"))
+
     def test_options(self):
         self.open_tube()
         self.assertIn("2 holes", self.fail_with(MESH, "open.off", "a.skel", "--open", "fail"))

@@ -70,6 +70,16 @@ TEST_CASE("PLY text: line breaks, comments, names, wrapped values") {
   check_tetrahedron(ply(kStart + kFaceHeader + kVertexHeader + kEnd + kFaces + kPoints));  // faces first
 }
 
+TEST_CASE("PLY text: a line ends its element, whatever numbers are left on it") {
+  check_tetrahedron(ply(kStart + kVertexHeader + kFaceHeader + kEnd +
+                        replace_all(kPoints + kFaces, "\n", " 1 1 0.5 -7\n")));
+}
+
+TEST_CASE("PLY binary: only the header's last line ends with a carriage return and a line feed") {
+  const std::string good = binary(false, "float", "uchar", "int");
+  check_tetrahedron(ply(replace_all(good, "end_header\n", "end_header\r\n")));
+}
+
 TEST_CASE("PLY scalar types: every name, as coordinate, list size and index, in text and both byte orders") {
   auto coordinates = kIntegers;
   coordinates.insert(coordinates.end(), kReals.begin(), kReals.end());

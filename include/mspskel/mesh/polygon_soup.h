@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "mspskel/base/types.h"
@@ -13,6 +14,7 @@ struct PolygonSoup {
   // Polygon f has the corners corners[begin[f]] .. corners[begin[f + 1] - 1], each an index into points.
   std::vector<Index> begin{0};
   std::vector<Index> corners;
+  std::vector<std::string> warnings;  // what the reader of the file left out
 
   std::size_t polygon_count() const { return begin.size() - 1; }
   void add_triangle(Index a, Index b, Index c) {

@@ -18,7 +18,7 @@ enum class OpenEnds {
 };
 
 struct MendOptions {
-  double weld = 0.0;  // points nearer than this share of the extent are one; [0, 0.1]; equal ones always are
+  double weld = 0.0;  // points nearer than this share of the extent are one; [0, 0.01]; equal ones always are
   // Pieces whose extent is below this share of the largest piece's are crumbs and go; [0, 1]. 0 keeps all,
   // 1 keeps only the largest.
   double smallest_component = 0.025;
