@@ -18,6 +18,7 @@
 #include "mspskel/io/atomic_file.h"
 #include "mspskel/io/read_mesh.h"
 #include "mspskel/io/write_skeleton.h"
+#include "page_output.h"
 #include "report.h"
 #include "stage_files.h"
 #include "terminal.h"
@@ -56,7 +57,7 @@ void check_folder_writable(const fs::path& path) {
 void check_outputs(const ExtractSettings& settings) {
   std::vector<FileRole> written;
   for (const std::string& output : settings.outputs) {
-    skeleton_format_of(output);
+    if (!is_page(output)) skeleton_format_of(output);
     written.push_back({output, "an output"});
   }
   written.push_back({settings.report, "the report"});
@@ -73,16 +74,19 @@ void check_outputs(const ExtractSettings& settings) {
   if (!settings.stages.empty()) check_folder_writable(settings.stages);
 }
 
-bool writes_json(const ExtractSettings& settings) {
+// Some outputs hold the report.
+bool writes_report(const ExtractSettings& settings) {
   return std::any_of(settings.outputs.begin(), settings.outputs.end(), [](const std::string& output) {
-    return skeleton_format_of(output) == SkeletonFormat::kJson;
+    return is_page(output) || skeleton_format_of(output) == SkeletonFormat::kJson;
   });
 }
 
 void add_losses(const ExtractSettings& settings, ExtractResult& result) {
-  for (const std::string& output : settings.outputs)
+  for (const std::string& output : settings.outputs) {
+    if (is_page(output)) continue;
     for (const std::string& loss : losses_of_format(result.skeleton, skeleton_format_of(output)))
       result.warnings.push_back(output + ": " + loss);
+  }
 }
 
 void show_warnings(const ExtractResult& result, Terminal& terminal) {
@@ -121,7 +125,7 @@ Extraction extract_and_check(const ExtractSettings& settings, const Cancellation
   end_at_open_ends(made.input, settings.options, result);
   result.warnings.insert(result.warnings.begin(), input.warnings.begin(), input.warnings.end());
   add_losses(settings, result);
-  made.reported = !settings.report.empty() || settings.verbose || writes_json(settings);
+  made.reported = !settings.report.empty() || settings.verbose || writes_report(settings);
 
   const Stopwatch checking;
   if (!result.solid) result.solid = std::make_shared<const BoundingVolumeHierarchy>(result.surface);
@@ -142,8 +146,12 @@ void write_files(const ExtractSettings& settings, const Extraction& made, const 
                  ProgramSeconds& seconds, Terminal& terminal) {
   const Stopwatch writing;
   const CurveSkeleton skeleton = made.input.of_file(made.result.skeleton);
-  for (const std::string& output : settings.outputs)
-    write_skeleton(output, skeleton, made.reported ? report_text(made.facts) : "");
+  for (const std::string& output : settings.outputs) {
+    if (is_page(output))
+      write_page(output, settings.input, made.result, made.facts);
+    else
+      write_skeleton(output, skeleton, made.reported ? report_text(made.facts) : "");
+  }
   if (!settings.stages.empty()) write_stage_files(settings.stages, made.result);
   seconds.write = writing.seconds();
   seconds.total = total.seconds();

@@ -152,8 +152,8 @@ bool parse_extract_settings(const std::vector<std::string>& arguments, ExtractSe
 
   line.argument("IN", settings.input, "mesh (.off .obj .ply .stl), - for stdin");
   line.arguments("OUT", settings.outputs,
-                 "skeletons, by extension: .skel .obj .ply .json .swc .vtp .graphml .cgal .polylines.txt; - "
-                 "is .skel on stdout; IN with .skel by default");
+                 "skeletons, by extension: .skel .obj .ply .json .swc .vtp .graphml .cgal .polylines.txt; "
+                 ".html is a page to look at; - is .skel on stdout; IN with .skel by default");
   line.group("General");
   line.choice<Mode>("--mode", options.mode, {{"default", Mode::kDefault}, {"thesis", Mode::kThesis}},
                     "thesis: every formula and constant as printed; changes the defaults below");

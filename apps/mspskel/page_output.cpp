@@ -1,0 +1,74 @@
+#include "page_output.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <limits>
+
+#include "mspskel/render/render.h"
+#include "mspskel/view/viewer_page.h"
+
+namespace mspskel::cli {
+namespace {
+
+std::vector<double> in_model_units(const VertexSlices& slices, double unit) {
+  std::vector<double> values = slices.perimeter;
+  for (std::size_t v = 0; v < values.size(); ++v)
+    values[v] = slices.valid[v] ? unit * values[v] : std::numeric_limits<double>::quiet_NaN();
+  return values;
+}
+
+std::vector<double> errors(const VertexSlices& slices) {
+  std::vector<double> values = slices.error;
+  for (std::size_t v = 0; v < values.size(); ++v)
+    if (!slices.valid[v]) values[v] = std::numeric_limits<double>::quiet_NaN();
+  return values;
+}
+
+ViewerPlaces vertices_without_slice(const ExtractResult& result) {
+  ViewerPlaces places{"no slice bounds the solid here", {}};
+  const SurfaceSnapshot& surface = result.surface;
+  for (Index v = 0; v < surface.vertex_count(); ++v)
+    if (!result.slices.valid[v] && surface.vertex_halfedge[v] != kNone)
+      places.positions.push_back(surface.frame.to_model(surface.position[v]));
+  return places;
+}
+
+ViewerPlaces faces_without_area(const SurfaceSnapshot& surface) {
+  ViewerPlaces places{"faces without area", {}};
+  for (Index f = 0; f < surface.face_count(); ++f)
+    if (surface.face_normal_times_twice_area(f).isZero(0.0))
+      places.positions.push_back(surface.frame.to_model(surface.position[surface.origin[3 * f]]));
+  return places;
+}
+
+}  // namespace
+
+bool is_page(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".html" || extension == ".htm";
+}
+
+void write_page(const std::string& path, const std::string& input, const ExtractResult& result,
+                const Json& report) {
+  const NormalisedFrame& frame = result.surface.frame;
+  ViewerScene scene;
+  scene.title = input == "-" ? "standard input" : std::filesystem::path(input).filename().string();
+  scene.surface = to_polygon_soup(result.surface);
+  scene.skeleton = result.skeleton;
+  for (const Vector3& x : result.skeleton_mesh.position) scene.skeleton_mesh.push_back(frame.to_model(x));
+  scene.msp = in_model_units(result.slices, frame.scale);
+  scene.slice_error = errors(result.slices);
+  if (std::count(result.slices.refined.begin(), result.slices.refined.end(), 1) > 0) {
+    scene.initial_msp = in_model_units(result.initial_slices, frame.scale);
+    scene.initial_slice_error = errors(result.initial_slices);
+  }
+  scene.slice_normal = result.slices.normal;
+  scene.places = {vertices_without_slice(result), faces_without_area(result.surface)};
+  scene.report = report_text(report);
+  write_viewer_page(path, scene);
+}
+
+}  // namespace mspskel::cli
