@@ -94,6 +94,7 @@ try {
   assert.ok(await page.locator('.remark').count() >= 2);
 
   const camera = (await state(page)).camera;
+  await page.focus('#canvas');  // arrows that a tab or a slider has are its own
   await page.keyboard.press('ArrowLeft');
   await page.waitForFunction(old => window.mspskel.state().camera[0] !== old[0], camera);
   await page.keyboard.press('r');
