@@ -19,11 +19,15 @@ export class View {
     this.controls.zoomToCursor = true;
     this.controls.addEventListener('change', changed);
     this.untouched = true;
+    this.seen = 1;
     this.controls.addEventListener('start', () => { this.untouched = false; });
   }
 
-  resize(width, height) {
+  /** `covered`: pixels at the top and the bottom where something lies over the canvas; the model is shown between. */
+  resize(width, height, covered) {
     this.camera.aspect = width / height;
+    this.seen = Math.max(0.2, 1 - (covered.top + covered.bottom) / height);
+    this.camera.setViewOffset(width, height, 0, (covered.bottom - covered.top) / 2, width, height);
     if (this.untouched) this.reset();
     else this.camera.updateProjectionMatrix();
   }
@@ -61,7 +65,7 @@ export class View {
     let away = 0.05;
     for (const point of points) {
       p.fromArray(point).sub(centre);
-      const half = Math.max(Math.abs(p.dot(x)) / this.camera.aspect, Math.abs(p.dot(y)));
+      const half = Math.max(Math.abs(p.dot(x)) / this.camera.aspect, Math.abs(p.dot(y)) / this.seen);
       away = Math.max(away, 1.1 * half / across + p.dot(z));
     }
     this.controls.target.copy(centre);

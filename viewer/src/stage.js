@@ -48,8 +48,21 @@ export class Stage {
     if (width === 0 || height === 0) return;
     this.renderer.setPixelRatio(this.software ? 1 : Math.min(window.devicePixelRatio, 2));
     this.renderer.setSize(width, height, false);
-    this.view.resize(width, height);
+    this.view.resize(width, height, this.covered(width, height));
     this.draw();
+  }
+
+  /** Strips of the canvas that the page's title and legend cover, where they span most of its width. */
+  covered(width, height) {
+    const strips = { top: 0, bottom: 0 };
+    for (const id of ['tools', 'legend']) {
+      const { left, right, top, bottom } = document.getElementById(id).getBoundingClientRect();
+      const origin = this.canvas.getBoundingClientRect().top;
+      if (right - left < width / 3) continue;
+      if (id === 'tools') strips.top = bottom - origin;
+      else strips.bottom = height - (top - origin);
+    }
+    return strips;
   }
 
   background(css) { this.renderer.setClearColor(new Color(css), 1); this.draw(); }
