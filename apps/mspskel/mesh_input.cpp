@@ -112,6 +112,7 @@ Json repair_facts(const MeshInput& input) {
           {"split_edges", c.split_edges},
           {"holes", c.holes},
           {"hole_faces", c.hole_faces},
+          {"joined_pieces", c.joined_pieces},
           {"flat_components", c.flat_components},
           {"small_components", c.small_components},
           {"small_faces", c.small_faces},

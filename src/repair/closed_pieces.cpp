@@ -6,50 +6,11 @@
 
 #include "../mesh/edge_table.h"
 #include "disjoint_sets.h"
+#include "pieces.h"
 #include "weld_points.h"
 
 namespace mspskel::detail {
 namespace {
-
-struct Piece {
-  Index faces = 0;
-  Index first_corner = kNone;
-  double volume = 0;  // signed, six times
-  double wall = 0, caps = 0;
-  Vector3 centre = Vector3::Zero();  // weighted by area, relative to the first corner
-  double extent = 0;                 // twice the largest distance from the centre
-  double area() const { return wall + caps; }
-};
-
-std::vector<Piece> measure_pieces(const std::vector<Vector3>& points, const FaceSet& faces, Index wall_count,
-                                  const std::vector<Index>& piece_of) {
-  std::vector<Piece> pieces(faces.count());
-  for (Index f = 0; f < faces.count(); ++f) {
-    Piece& piece = pieces[piece_of[f]];
-    if (piece.faces++ == 0) piece.first_corner = faces.corners[3 * f];
-    const Vector3& base = points[piece.first_corner];
-    const Vector3 doubled = area_vector(points, faces, f);
-    const double area = doubled.norm() / 2;
-    (f < wall_count ? piece.wall : piece.caps) += area;
-    piece.volume += doubled.dot(points[faces.corners[3 * f]] - base);
-    for (int k = 0; k < 3; ++k) piece.centre += area * (points[faces.corners[3 * f + k]] - base) / 3;
-  }
-  for (Piece& piece : pieces)
-    if (piece.area() > 0) piece.centre /= piece.area();
-  for (std::size_t h = 0; h < faces.corners.size(); ++h) {
-    Piece& piece = pieces[piece_of[h / 3]];
-    const Vector3 place = points[faces.corners[h]] - points[piece.first_corner];
-    piece.extent = std::max(piece.extent, 2 * (place - piece.centre).norm());
-  }
-  return pieces;
-}
-
-bool has_volume(const Piece& piece) {
-  constexpr double kFlat = 1e-8, kSheet = 0.95;
-  if (piece.caps > kSheet * piece.wall) return false;
-  const double volume = piece.volume / 6;
-  return 36 * kPi * volume * volume > kFlat * std::pow(piece.area(), 3);
-}
 
 // Gives each fan of faces round a point a vertex.
 class Vertices {
@@ -132,9 +93,20 @@ void split_edge(FaceSet& faces, std::vector<Index>& twin, Index h, Index m) {
   twin[after_h] = g;
 }
 
-// Splits all but the first of the edges that join the same two vertices; returns how many.
-Index split_double_edges(FaceSet& faces, std::vector<Index>& twin, std::vector<Vector3>& positions) {
-  Index count = 0;
+// Whether the faces on both sides of a half-edge face each other.
+bool is_concave(const FaceSet& faces, const std::vector<Index>& twin, Index h,
+                const std::vector<Vector3>& positions) {
+  const Index apex = faces.corners[FaceSet::prev(twin[h])];
+  return area_vector(positions, faces, h / 3).dot(positions[apex] - positions[faces.origin(h)]) > 0;
+}
+
+struct SplitEdges {
+  std::vector<Index> convex, concave;  // the vertices in their middles
+};
+
+// Splits all but the first of the edges that join the same two vertices.
+SplitEdges split_double_edges(FaceSet& faces, std::vector<Index>& twin, std::vector<Vector3>& positions) {
+  SplitEdges added;
   for (bool again = true; again;) {
     again = false;
     std::vector<Index> split;
@@ -151,12 +123,13 @@ Index split_double_edges(FaceSet& faces, std::vector<Index>& twin, std::vector<V
         continue;
       }
       changed[h / 3] = changed[across] = 1;
+      const auto middle = static_cast<Index>(positions.size());
+      (is_concave(faces, twin, h, positions) ? added.concave : added.convex).push_back(middle);
       positions.push_back((positions[faces.origin(h)] + positions[faces.target(h)]) / 2);
-      split_edge(faces, twin, h, static_cast<Index>(positions.size()) - 1);
-      ++count;
+      split_edge(faces, twin, h, middle);
     }
   }
-  return count;
+  return added;
 }
 
 struct Surroundings {
@@ -183,14 +156,15 @@ std::vector<Surroundings> surroundings_of(const FaceSet& faces, const std::vecto
   return all;
 }
 
-// Moves vertices by a share of their shortest edge: into the material behind them, or towards their
-// neighbours where that is wanted or there is no normal.
-void nudge(const FaceSet& faces, const std::vector<Index>& vertices, double share, bool to_neighbours,
+enum class Way { kIntoMaterial, kIntoVoid, kToNeighbours };
+
+// Moves vertices by a share of their shortest edge; towards their neighbours also where there is no normal.
+void nudge(const FaceSet& faces, const std::vector<Index>& vertices, double share, Way where,
            std::vector<Vector3>& positions) {
   const std::vector<Surroundings> all = surroundings_of(faces, vertices, positions);
   for (std::size_t i = 0; i < vertices.size(); ++i) {
-    Vector3 way = -all[i].normal;
-    if (to_neighbours || way.norm() == 0) way = all[i].outward;
+    Vector3 way = where == Way::kIntoVoid ? all[i].normal : Vector3(-all[i].normal);
+    if (where == Way::kToNeighbours || way.norm() == 0) way = all[i].outward;
     if (way.norm() > 0) positions[vertices[i]] += share * all[i].shortest * way.normalized();
   }
 }
@@ -202,14 +176,14 @@ void draw_apart(const FaceSet& faces, const std::vector<Index>& vertices, std::v
   constexpr double kShare = 1e-3;
   constexpr int kRounds = 16;
   if (vertices.empty()) return;
-  nudge(faces, vertices, kShare, false, positions);
+  nudge(faces, vertices, kShare, Way::kIntoMaterial, positions);
   for (int round = 1; round <= kRounds; ++round) {
     const std::vector<Index> first = weld_equal_points(positions);
     std::vector<Index> coincident;
     for (Index v = 0; v < static_cast<Index>(first.size()); ++v)
       if (first[v] != v) coincident.push_back(v);
     if (coincident.empty()) return;
-    nudge(faces, coincident, round * kShare, true, positions);
+    nudge(faces, coincident, round * kShare, Way::kToNeighbours, positions);
   }
 }
 
@@ -228,10 +202,7 @@ struct CornerUse {
 std::vector<char> faces_to_keep(const std::vector<Vector3>& points, const FaceSet& faces,
                                 const std::vector<Index>& twin, Index wall_count, const MendOptions& options,
                                 MendCounts& counts) {
-  DisjointSets sets(faces.count());
-  for (Index h = 0; h < static_cast<Index>(twin.size()); ++h) sets.unite(h / 3, twin[h] / 3);
-  std::vector<Index> piece_of(faces.count());
-  for (Index f = 0; f < faces.count(); ++f) piece_of[f] = sets.root(f);
+  const std::vector<Index> piece_of = pieces_of_faces(faces, twin);
   const std::vector<Piece> pieces = measure_pieces(points, faces, wall_count, piece_of);
   double largest = 0;
   for (const Piece& piece : pieces)
@@ -290,10 +261,12 @@ void make_vertices(const std::vector<Vector3>& points, const FaceSet& all, std::
 
   for (const Index p : vertices.points()) mended.soup.points.push_back(points[p]);
   mended.counts.split_vertices = vertices.split();
-  mended.counts.split_edges = split_double_edges(faces, twin, mended.soup.points);
+  const SplitEdges split = split_double_edges(faces, twin, mended.soup.points);
+  mended.counts.split_edges = static_cast<Index>(split.convex.size() + split.concave.size());
+  constexpr double kBridge = 0.1;
+  nudge(faces, split.concave, kBridge, Way::kIntoVoid, mended.soup.points);
   std::vector<Index> doubled = vertices.doubled();
-  for (std::size_t v = vertices.points().size(); v < mended.soup.points.size(); ++v)
-    doubled.push_back(static_cast<Index>(v));
+  doubled.insert(doubled.end(), split.convex.begin(), split.convex.end());
   draw_apart(faces, doubled, mended.soup.points);
   for (Index f = 0; f < faces.count(); ++f)
     mended.soup.add_triangle(faces.corners[3 * f], faces.corners[3 * f + 1], faces.corners[3 * f + 2]);

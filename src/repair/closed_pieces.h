@@ -9,15 +9,15 @@
 namespace mspskel::detail {
 
 // Which triangles belong to a piece that encloses a volume and is no crumb. `wall_count`: the triangles from
-// there on are caps. A piece is flat if its volume is nothing beside its area (a sphere's is 36 pi V² / A³ =
-// 1, such a piece's is below 1e-8), and a sheet if caps make up almost half of it; both have no volume.
+// there on are caps.
 std::vector<char> faces_to_keep(const std::vector<Vector3>& points, const FaceSet& faces,
                                 const std::vector<Index>& twin, Index wall_count, const MendOptions& options,
                                 MendCounts& counts);
 
 // The kept triangles with a vertex for each fan of faces, so that no vertex has two, and a vertex in the
-// middle of all but one of the edges that join the same two vertices; both are drawn into the material by a
-// thousandth of their shortest edge. Vertices follow the order of the
+// middle of all but one of the edges that join the same two vertices. Both are drawn into the material by a
+// thousandth of their shortest edge; where void lies between two such edges (join_touching_pieces) the middle
+// is drawn into it by a tenth, so that the bridge has a width. Vertices follow the order of the
 // points, further ones of a point come after all those. Fills soup, vertex_of_point (for the points of
 // `input`, whose like is point_of[point]), and `vertex_of_added`, for the points from input.points on.
 void make_vertices(const std::vector<Vector3>& points, const FaceSet& faces, std::vector<Index> twin,

@@ -11,6 +11,7 @@
 #include "disjoint_sets.h"
 #include "distinct_faces.h"
 #include "find_openings.h"
+#include "join_touching_pieces.h"
 #include "mspskel/base/error.h"
 #include "pair_faces.h"
 #include "weld_points.h"
@@ -35,6 +36,8 @@ class Mending {
     twin_ = detail::pair_faces(points_, faces_, counts());
     wall_count_ = faces_.count();
     close_loops();
+    counts().joined_pieces =
+        detail::join_touching_pieces(points_, faces_, wall_count_, options_.touching_part, twin_);
     finish();
     return std::move(mended_);
   }
@@ -225,6 +228,8 @@ void validate(const MendOptions& options) {
     throw UsageError("weld must be from 0 to 0.01 of the extent");
   if (!(options.smallest_component >= 0 && options.smallest_component <= 1))
     throw UsageError("smallest component must be from 0 to 1 of the largest");
+  if (!(options.touching_part >= 0 && options.touching_part <= 1))
+    throw UsageError("a touching part must be from 0 to 1 of what it touches");
 }
 
 MendedSoup mend_soup(const PolygonSoup& soup, const MendOptions& options) {

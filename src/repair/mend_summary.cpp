@@ -22,6 +22,7 @@ std::string summary(const MendedSoup& mended) {
   add(c.split_edges, "edge that touched itself split", "edges that touched each other split");
   add(c.holes - openings, "hole closed", "holes closed");
   add(openings, "open end capped", "open ends capped");
+  add(c.joined_pieces, "piece joined to the one it touches", "pieces joined to those they touch");
   add(c.flat_components, "piece without volume dropped", "pieces without volume dropped");
   add(c.small_components, "crumb dropped", "crumbs dropped");
   return text;

@@ -128,6 +128,24 @@ TEST_CASE("solids that touch in an edge or a corner are two, and as large as bef
   REQUIRE(facts.volume == Approx(2).epsilon(0.01));
 }
 
+TEST_CASE(
+    "a small solid that touches a large one in an edge is a part of it, and takes along what it touches") {
+  VoxelSolid solid;
+  for (int x = 0; x < 9; ++x)
+    for (const auto& [y, z] : {std::pair{0, 0}, {0, 1}, {1, 0}, {1, 1}}) solid.cells.insert({x, y, z});
+  const PolygonSoup alone = boundary(solid);
+  REQUIRE(same(mend_soup(alone).soup, alone));
+  for (const Cell& c : {Cell{4, 2, 2}, {5, 3, 2}, {7, -1, -1}, {7, -2, 0}}) solid.cells.insert(c);
+  const MendedSoup mended = mend_soup(boundary(solid));
+  const Facts facts = facts_of(mended);
+  CHECK(mended.counts.joined_pieces == 4);
+  CHECK(facts.components == 1);
+  CHECK(facts.genus == 0);
+  CHECK(facts.volume == Approx(40).epsilon(0.01));
+  const MeshReport report = report_mesh(make_snapshot(build_mesh(mended.soup)), {0});
+  CHECK(report.degenerate_faces == 0);
+}
+
 TEST_CASE("voxels make as many pieces as they have connected over their faces") {
   Random random(GENERATE(range(1, 9)));
   VoxelSolid solid;
@@ -152,6 +170,7 @@ TEST_CASE("voxels make as many pieces as they have connected over their faces") 
   }
   MendOptions all;
   all.smallest_component = 0;
+  all.touching_part = 0;
   const MendedSoup mended = mend_soup(boundary(solid), all);
   const BuiltMesh built = build_mesh_with_report(mended.soup);
   const MeshReport report = report_mesh(make_snapshot(built.mesh), {0});

@@ -22,6 +22,9 @@ struct MendOptions {
   // Pieces whose extent is below this share of the largest piece's are crumbs and go; [0, 1]. 0 keeps all,
   // 1 keeps only the largest.
   double smallest_component = 0.025;
+  // A piece whose extent is below this share of that of one which it touches in an edge is a part of it;
+  // others stay apart; [0, 1].
+  double touching_part = 0.5;
   OpenEnds open = OpenEnds::kEnds;
 };
 
@@ -44,6 +47,7 @@ struct MendCounts {
   Index split_edges = 0;       // vertices added in the middle of edges where the surface touched itself
   Index holes = 0;             // loops closed
   Index hole_faces = 0;        // triangles added
+  Index joined_pieces = 0;     // pieces that became parts of those they touch
   Index flat_components = 0;   // pieces without volume
   Index small_components = 0;  // crumbs
   Index small_faces = 0;       // their triangles
@@ -59,7 +63,8 @@ struct MendedSoup {
 
 // Welds equal points, drops what bounds nothing, turns faces to agree, and pairs the faces round each edge of
 // more than two by angle, so that each pair bounds material; what is open after that is stitched or closed.
-//   Where solids touch in an edge or a point they are drawn apart by a thousandth of the shortest edge there.
+//   Where solids touch in an edge or a point they are drawn apart by a thousandth of the shortest edge there;
+// a much smaller one that touches in an edge is joined by a bridge along it.
 //   Copies of a face are one. Two opposite copies cancel where the faces beside them close without them, and
 //   are one face where they do not. A patch with a free edge that hangs on edges of three faces is a flap.
 //   Boundary points nearer than a twentieth of their shortest boundary edge are stitched.

@@ -1,0 +1,32 @@
+// What hangs together over matched half-edges.
+#pragma once
+
+#include <vector>
+
+#include "face_set.h"
+
+namespace mspskel::detail {
+
+struct Piece {
+  Index faces = 0;
+  Index first_corner = kNone;
+  double volume = 0;  // signed, six times
+  double wall = 0, caps = 0;
+  Vector3 centre = Vector3::Zero();  // weighted by area, relative to the first corner
+  double extent = 0;                 // twice the largest distance from the centre
+  double area() const { return wall + caps; }
+};
+
+// Per triangle its piece, named by the first triangle of it.
+std::vector<Index> pieces_of_faces(const FaceSet& faces, const std::vector<Index>& twin);
+
+// Indexed by piece; of no faces where no piece has that name. `wall_count`: the triangles from there on are
+// caps.
+std::vector<Piece> measure_pieces(const std::vector<Vector3>& points, const FaceSet& faces, Index wall_count,
+                                  const std::vector<Index>& piece_of);
+
+// False for what is flat (its volume is nothing beside its area: a sphere's is 36 pi V² / A³ = 1, such a
+// piece's is below 1e-8) and for a sheet (caps make up almost half of it).
+bool has_volume(const Piece& piece);
+
+}  // namespace mspskel::detail
