@@ -91,7 +91,7 @@ int check_command(const std::vector<std::string>& arguments) {
 
   refuse_shared_files({{mesh_path, "the mesh"}, {skeleton_path, "the skeleton"}},
                       {{json_path, "the figures"}});
-  const MeshInput input = prepare_mesh(read_polygon_soup(mesh_path), repair);
+  const MeshInput input = prepare_mesh(read_polygon_soup(mesh_path), repair, execution);
   const SurfaceSnapshot surface = make_snapshot(input.built.mesh);
   const CurveSkeleton skeleton = input.of_surface(read_skeleton(skeleton_path));
   const BoundingVolumeHierarchy solid(surface);

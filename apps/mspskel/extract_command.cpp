@@ -116,7 +116,7 @@ Extraction extract_and_check(const ExtractSettings& settings, const Cancellation
                              ProgramSeconds& seconds) {
   const Stopwatch reading;
   Extraction made;
-  made.input = prepare_mesh(read_polygon_soup(settings.input), settings.repair);
+  made.input = prepare_mesh(read_polygon_soup(settings.input), settings.repair, settings.options.execution);
   const BuiltMesh& input = made.input.built;
   seconds.read = reading.seconds();
   cancellation.throw_if_requested();

@@ -1,7 +1,9 @@
 #include "mesh_input.h"
 
 #include <charconv>
+#include <cstdio>
 
+#include "mspskel/base/counted.h"
 #include "mspskel/base/error.h"
 #include "mspskel/io/write_mesh.h"
 
@@ -16,7 +18,41 @@ MeshInput mend(const PolygonSoup& soup, const RepairSettings& settings) {
   const std::string done = summary(input.repair);
   if (!done.empty()) input.built.warnings.insert(input.built.warnings.begin(), "mended: " + done);
   input.repair.soup = {};
+  input.vertex_of_point = input.repair.vertex_of_point;
   return input;
+}
+
+void unite(MeshInput& input, const Execution& execution) {
+  if (input.built.component_count < 2) return;
+  const SurfaceSnapshot surface = make_snapshot(input.built.mesh);
+  input.united = unite_crossing_shells(surface, {}, execution);
+  if (!input.united) return;
+  UnitedShells& united = *input.united;
+  if (united.left_apart > 0)
+    input.built.warnings.push_back(counted(united.left_apart, "shell") +
+                                   " cross each other and stay apart: united they would have more handles "
+                                   "than shells; each has a skeleton of its own");
+  if (united.shells == 0) return;
+  std::vector<std::string> warnings = std::move(input.built.warnings);
+  for (Opening& opening : input.repair.openings) {
+    if (opening.vertex == kNone) continue;
+    const bool replaced = united.replaced[surface.component[opening.vertex]];
+    opening.vertex = replaced ? kNone : united.vertex_of[opening.vertex];
+  }
+  if (input.vertex_of_point.empty()) {
+    input.vertex_of_point = united.vertex_of;
+  } else {
+    for (Index& v : input.vertex_of_point)
+      if (v != kNone) v = united.vertex_of[v];
+  }
+  input.built = build_mesh_with_report(united.soup);
+  united.soup = {};
+  char cell[32];
+  std::snprintf(cell, sizeof cell, "%.3g", united.cell);
+  warnings.push_back(counted(united.shells, "shell") + " that cross each other are united to " +
+                     counted(united.solids, "solid") + ", sampled at cells of " + cell +
+                     " (--shells each keeps them apart)");
+  input.built.warnings.insert(input.built.warnings.begin(), warnings.begin(), warnings.end());
 }
 
 Json opening_json(const Opening& opening) {
@@ -39,7 +75,7 @@ void RepairSettings::resolve() {
 }
 
 void add_repair_options(CommandLine& line, RepairSettings& settings) {
-  line.group("Repair, of a mesh that is not closed and manifold");
+  line.group("Repair, of a mesh that is not one closed, manifold surface");
   line.choice<bool>("--repair", settings.repair, {{"auto", true}, {"off", false}},
                     "auto: mend it and say what was done; off: refuse it");
   line.text("--components", settings.components, "all|largest|SHARE",
@@ -50,28 +86,29 @@ void add_repair_options(CommandLine& line, RepairSettings& settings) {
       "--open", settings.options.open,
       {{"ends", OpenEnds::kEnds}, {"cap", OpenEnds::kCap}, {"fail", OpenEnds::kFail}},
       "ends: where a tube is open its skeleton ends, other holes are closed; cap: all are; fail: refuse");
+  line.choice<bool>("--shells", settings.unite, {{"union", true}, {"each", false}},
+                    "union: shells that cross each other are one solid; each: every shell has a skeleton");
 }
 
 CurveSkeleton MeshInput::of_file(const CurveSkeleton& skeleton) const {
   CurveSkeleton result = skeleton;
-  if (!mended) return result;
+  if (vertex_of_point.empty()) return result;
   result.node_of_vertex.clear();
-  for (const Index v : repair.vertex_of_point)
+  for (const Index v : vertex_of_point)
     result.node_of_vertex.push_back(v == kNone ? kNone : skeleton.node_of_vertex[v]);
   return result;
 }
 
 CurveSkeleton MeshInput::of_surface(const CurveSkeleton& skeleton) const {
   CurveSkeleton result = skeleton;
-  if (!mended || skeleton.node_of_vertex.size() != repair.vertex_of_point.size()) return result;
+  if (vertex_of_point.empty() || skeleton.node_of_vertex.size() != vertex_of_point.size()) return result;
   result.node_of_vertex.assign(built.mesh.n_vertices(), kNone);
-  for (std::size_t p = 0; p < repair.vertex_of_point.size(); ++p)
-    if (repair.vertex_of_point[p] != kNone)
-      result.node_of_vertex[repair.vertex_of_point[p]] = skeleton.node_of_vertex[p];
+  for (std::size_t p = 0; p < vertex_of_point.size(); ++p)
+    if (vertex_of_point[p] != kNone) result.node_of_vertex[vertex_of_point[p]] = skeleton.node_of_vertex[p];
   return result;
 }
 
-MeshInput prepare_mesh(const PolygonSoup& soup, const RepairSettings& settings) {
+MeshInput prepare_mesh(const PolygonSoup& soup, const RepairSettings& settings, const Execution& execution) {
   const MendOptions defaults;
   const bool wants_more =
       settings.options.weld > 0 || settings.options.smallest_component != defaults.smallest_component;
@@ -87,6 +124,7 @@ MeshInput prepare_mesh(const PolygonSoup& soup, const RepairSettings& settings) 
       input = mend(soup, settings);
     }
   }
+  if (settings.unite) unite(input, execution);
   input.built.warnings.insert(input.built.warnings.begin(), soup.warnings.begin(), soup.warnings.end());
   if (!settings.write_mesh.empty()) write_mesh(settings.write_mesh, input.built.mesh);
   return input;
@@ -116,6 +154,10 @@ Json repair_facts(const MeshInput& input) {
           {"flat_components", c.flat_components},
           {"small_components", c.small_components},
           {"small_faces", c.small_faces},
+          {"united_shells", input.united ? input.united->shells : 0},
+          {"united_solids", input.united ? input.united->solids : 0},
+          {"shells_left_apart", input.united ? input.united->left_apart : 0},
+          {"cell", input.united ? input.united->cell : 0.0},
           {"openings", openings}};
 }
 

@@ -1,12 +1,15 @@
 // The mesh that a user gave, made usable: as it is where it is closed, else mended.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "command_line.h"
 #include "mspskel/graph/curve_skeleton.h"
 #include "mspskel/mesh/build_mesh.h"
 #include "mspskel/repair/mend_soup.h"
+#include "mspskel/repair/unite_shells.h"
 
 namespace mspskel::cli {
 
@@ -14,6 +17,7 @@ struct RepairSettings {
   bool repair = true;
   MendOptions options;
   std::string components = "0.025";  // as given; resolve() reads it
+  bool unite = true;                 // shells that cross each other
   std::string write_mesh;            // file for the surface that the skeleton belongs to; empty: none
 
   // Sets what --components says. Throws UsageError.
@@ -26,7 +30,10 @@ void add_repair_options(CommandLine& line, RepairSettings& settings);
 struct MeshInput {
   BuiltMesh built;
   bool mended = false;
-  MendedSoup repair;  // of a mended one, without its soup
+  MendedSoup repair;                   // of a mended one, without its soup
+  std::optional<UnitedShells> united;  // if shells crossed; without its soup
+  // The mesh's vertex that stands for each point of the file; empty: its own.
+  std::vector<Index> vertex_of_point;
 
   // The skeleton with the map of the vertices that the file has.
   CurveSkeleton of_file(const CurveSkeleton& skeleton) const;
@@ -35,8 +42,10 @@ struct MeshInput {
 };
 
 // A closed, manifold mesh comes through as build_mesh leaves it, unless the settings ask for more; any other
-// is mended, which the first warning sums up. Writes settings.write_mesh. Throws MeshError, WriteError.
-MeshInput prepare_mesh(const PolygonSoup& soup, const RepairSettings& settings);
+// is mended, which the first warning sums up. Then shells that cross each other are united. Writes
+// settings.write_mesh. Throws MeshError, WriteError.
+MeshInput prepare_mesh(const PolygonSoup& soup, const RepairSettings& settings,
+                       const Execution& execution = {});
 
 // What was done, for the report.
 Json repair_facts(const MeshInput& input);

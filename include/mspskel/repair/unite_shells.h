@@ -1,0 +1,49 @@
+// Shells that cross each other are one solid: a figure of body, hair and clothes, a pot with its handle.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "mspskel/base/progress.h"
+#include "mspskel/mesh/polygon_soup.h"
+#include "mspskel/mesh/surface_snapshot.h"
+
+namespace mspskel {
+
+struct UniteOptions {
+  // Side of the grid's cells, as a share of the united shells' extent; [0.001, 0.1]. 0: a third of the
+  // thinnest shell's thickness, at most a hundredth, and not so fine that more than about 300,000 nodes lie
+  // near the surface.
+  double cell = 0.0;
+};
+
+// Throws UsageError naming the option that is out of range.
+void validate(const UniteOptions& options);
+
+struct UnitedShells {
+  PolygonSoup soup;  // closed triangles, model units: the shells that cross no other, as they are,
+                     // then the united ones
+  std::vector<Index> vertex_of;  // per vertex of the surface: its own, or the nearest of the united surface
+  std::vector<bool> replaced;    // per component of the surface: it is a part of a united one
+  Index shells = 0, solids = 0;  // how many were united into how many
+  Index left_apart = 0;          // shells that cross others and stay apart; the soup is empty if all do
+  double cell = 0.0;             // the largest, model units
+};
+
+// Each group of components that cross each other becomes the boundary of the union of their solids; nothing
+// if no two cross. Contact does not count: an edge or a vertex of one has to lie in the other by a
+// thousandth of the smaller one's extent.
+//   The union is sampled at the nodes of a grid near the surface: inside where a shell's own solid has the
+// node. Each cube of the grid is six tetrahedra about one diagonal (Kuhn 1960), and what separates inside
+// from outside in them is a closed manifold (Doi and Koide 1991, "An efficient method of triangulating
+// equi-valued surfaces by using tetrahedral cells"). Walls thinner than the cells give the union handles: if
+// it has more than its n shells have, all are thickened by half a cell's diagonal, and the better union is
+// taken; one that has more than theirs and n is none: they stay apart, as the parts of an assembly do.
+//   Pieces of the union below 0.025 of its extent are left out.
+// Positions are within a cell of the shells. Cost: O(area / cell²) inside queries and distances, in parallel,
+// and for the test of crossing a box query a face. Throws Cancelled.
+std::optional<UnitedShells> unite_crossing_shells(const SurfaceSnapshot& surface,
+                                                  const UniteOptions& options = {},
+                                                  const Execution& execution = {});
+
+}  // namespace mspskel

@@ -1,0 +1,141 @@
+#include "crossing_shells.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "disjoint_sets.h"
+
+namespace mspskel::detail {
+namespace {
+
+constexpr double kDepth = 1e-3;  // of the smaller shell's extent
+constexpr double kSteps = 4;     // in such depths, behind a face: edges enter aslant
+
+bool boxes_meet(const Vector3& low, const Vector3& high, const Shell& shell) {
+  return (low.array() <= shell.high.array()).all() && (shell.low.array() <= high.array()).all();
+}
+
+// Where the segment pq passes through the face: the points of it a step before and behind, or at its ends.
+std::optional<std::array<Vector3, 2>> passage(const SurfaceSnapshot& surface, const Vector3& p,
+                                              const Vector3& q, double step, Index face) {
+  const Vector3 &a = surface.position[surface.origin[3 * face]],
+                &b = surface.position[surface.origin[3 * face + 1]],
+                &c = surface.position[surface.origin[3 * face + 2]];
+  const Vector3 normal = (b - a).cross(c - a);
+  const double at_p = normal.dot(p - a), at_q = normal.dot(q - a);
+  if (!(at_p * at_q < 0)) return std::nullopt;
+  const double share = at_p / (at_p - at_q), reach = step / (q - p).norm();
+  const Vector3 x = p + share * (q - p);
+  const auto beside = [&](const Vector3& s, const Vector3& t) {
+    return (t - s).cross(x - s).dot(normal) < 0;
+  };
+  if (beside(a, b) || beside(b, c) || beside(c, a)) return std::nullopt;
+  return std::array<Vector3, 2>{p + std::max(0.0, share - reach) * (q - p),
+                                p + std::min(1.0, share + reach) * (q - p)};
+}
+
+class Crossings {
+ public:
+  Crossings(const SurfaceSnapshot& surface, const std::vector<Shell>& shells)
+      : surface_(surface), shells_(shells), all_(surface), groups_(static_cast<Index>(shells.size())) {}
+
+  void run(const ProgressCallback& progress) {
+    for (Index c = 0; c < static_cast<Index>(shells_.size()); ++c) {
+      report_progress(progress, "shells", static_cast<double>(c) / static_cast<double>(shells_.size()));
+      if (alone(c)) continue;
+      for (const Index f : shells_[c].faces) pass_through(f, c);
+    }
+    for (const auto& [c, d] : meetings_) {
+      report_progress(progress, "shells", 1.0);
+      if (groups_.root(c) != groups_.root(d) && (reaches_into(c, d) || reaches_into(d, c)))
+        groups_.unite(c, d);
+    }
+  }
+
+  std::vector<std::vector<Index>> groups() {
+    std::vector<std::vector<Index>> members(shells_.size());
+    for (Index c = 0; c < static_cast<Index>(shells_.size()); ++c) members[groups_.root(c)].push_back(c);
+    members.erase(std::remove_if(members.begin(), members.end(), [](const auto& m) { return m.size() < 2; }),
+                  members.end());
+    return members;
+  }
+
+ private:
+  bool alone(Index c) const {
+    for (Index d = 0; d < static_cast<Index>(shells_.size()); ++d)
+      if (d != c && boxes_meet(shells_[c].low, shells_[c].high, shells_[d])) return false;
+    return true;
+  }
+
+  void pass_through(Index f, Index c) {
+    for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+      if (h > surface_.twin[h]) continue;
+      const Vector3 &p = surface_.position[surface_.origin[h]], &q = surface_.position[surface_.target(h)];
+      all_.for_each_in_box(p.cwiseMin(q), p.cwiseMax(q), [&](Index g) {
+        const Index d = surface_.component[surface_.origin[3 * g]];
+        if (d == c || groups_.root(c) == groups_.root(d)) return true;
+        const auto points = passage(surface_, p, q, kSteps * least_depth(c, d), g);
+        if (!points) return true;
+        if (is_deep((*points)[0], c, d) || is_deep((*points)[1], c, d))
+          groups_.unite(c, d);
+        else
+          meetings_.insert({std::min(c, d), std::max(c, d)});
+        return true;
+      });
+    }
+  }
+
+  // Whether a point of c lies well inside d.
+  bool is_deep(const Vector3& p, Index c, Index d) {
+    if (!boxes_meet(p, p, shells_[d])) return false;
+    const BoundingVolumeHierarchy& solid = solids_.try_emplace(d, surface_, shells_[d].faces).first->second;
+    return solid.inside(p) && solid.distance(p) > least_depth(c, d);
+  }
+
+  double least_depth(Index c, Index d) const {
+    return kDepth * std::min(shells_[c].extent(), shells_[d].extent());
+  }
+
+  bool reaches_into(Index c, Index d) {
+    return std::any_of(shells_[c].vertices.begin(), shells_[c].vertices.end(),
+                       [&](Index v) { return is_deep(surface_.position[v], c, d); });
+  }
+
+  const SurfaceSnapshot& surface_;
+  const std::vector<Shell>& shells_;
+  BoundingVolumeHierarchy all_;
+  DisjointSets groups_;
+  std::set<std::pair<Index, Index>> meetings_;  // pairs with an edge through a face, not deep
+  std::map<Index, BoundingVolumeHierarchy> solids_;
+};
+
+}  // namespace
+
+std::vector<Shell> shells_of(const SurfaceSnapshot& surface) {
+  std::vector<Shell> shells(static_cast<std::size_t>(surface.component_count));
+  for (Index v = 0; v < surface.vertex_count(); ++v) {
+    if (surface.vertex_halfedge[v] == kNone) continue;
+    Shell& shell = shells[surface.component[v]];
+    const Vector3& p = surface.position[v];
+    shell.low = shell.vertices.empty() ? p : Vector3(shell.low.cwiseMin(p));
+    shell.high = shell.vertices.empty() ? p : Vector3(shell.high.cwiseMax(p));
+    shell.vertices.push_back(v);
+  }
+  for (Index f = 0; f < surface.face_count(); ++f)
+    shells[surface.component[surface.origin[3 * f]]].faces.push_back(f);
+  return shells;
+}
+
+std::vector<std::vector<Index>> crossing_groups(const SurfaceSnapshot& surface,
+                                                const std::vector<Shell>& shells,
+                                                const ProgressCallback& progress) {
+  Crossings crossings(surface, shells);
+  crossings.run(progress);
+  return crossings.groups();
+}
+
+}  // namespace mspskel::detail

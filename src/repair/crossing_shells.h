@@ -1,0 +1,24 @@
+// Which components of a surface pass through each other.
+#pragma once
+
+#include <vector>
+
+#include "mspskel/base/progress.h"
+#include "mspskel/mesh/bounding_volume_hierarchy.h"
+
+namespace mspskel::detail {
+
+struct Shell {
+  std::vector<Index> faces, vertices;
+  Vector3 low = Vector3::Zero(), high = Vector3::Zero();  // its box
+  double extent() const { return (high - low).norm(); }
+};
+
+std::vector<Shell> shells_of(const SurfaceSnapshot& surface);
+
+// Groups of at least two components that cross each other, see unite_crossing_shells; each in order.
+std::vector<std::vector<Index>> crossing_groups(const SurfaceSnapshot& surface,
+                                                const std::vector<Shell>& shells,
+                                                const ProgressCallback& progress);
+
+}  // namespace mspskel::detail

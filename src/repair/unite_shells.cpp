@@ -1,0 +1,219 @@
+#include "mspskel/repair/unite_shells.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "crossing_shells.h"
+#include "disjoint_sets.h"
+#include "mspskel/base/error.h"
+#include "mspskel/mesh/build_mesh.h"
+#include "shell_grid.h"
+
+namespace mspskel {
+namespace {
+
+using detail::Shell;
+
+// The median way through the solid from some of the shell's vertices.
+double thickness(const SurfaceSnapshot& surface, const Shell& shell) {
+  constexpr std::size_t kSamples = 200;
+  const BoundingVolumeHierarchy solid(surface, shell.faces);
+  std::vector<double> ways;
+  for (std::size_t i = 0; i < shell.vertices.size(); i += 1 + shell.vertices.size() / kSamples) {
+    const Index v = shell.vertices[i];
+    const Vector3 inward =
+        (solid.inside(surface.position[v] - 1e-6 * surface.normal[v]) ? -1 : 1) * surface.normal[v];
+    if (const auto hit = solid.first_hit(surface.position[v] + 1e-6 * inward, inward))
+      ways.push_back(hit->distance);
+  }
+  if (ways.empty()) return 0;
+  std::nth_element(ways.begin(), ways.begin() + ways.size() / 2, ways.end());
+  return ways[ways.size() / 2];
+}
+
+double extent_of(const std::vector<Shell>& shells, const std::vector<Index>& members) {
+  Vector3 low = shells[members[0]].low, high = shells[members[0]].high;
+  for (const Index m : members) {
+    low = low.cwiseMin(shells[m].low);
+    high = high.cwiseMax(shells[m].high);
+  }
+  return (high - low).norm();
+}
+
+double cell_for(const SurfaceSnapshot& surface, const std::vector<Shell>& shells,
+                const std::vector<Index>& members, const UniteOptions& options) {
+  constexpr double kCoarsest = 0.01, kFinest = 0.001, kCellsAcross = 3, kNodesNear = 3e5, kNodesACell = 6;
+  const double extent = extent_of(shells, members);
+  if (options.cell > 0) return options.cell * extent;
+  double thinnest = extent, area = 0;
+  for (const Index m : members) {
+    thinnest = std::min(thinnest, thickness(surface, shells[m]));
+    for (const Index f : shells[m].faces) area += surface.face_normal_times_twice_area(f).norm() / 2;
+  }
+  const double affordable = std::sqrt(kNodesACell * area / kNodesNear);
+  return std::clamp(thinnest / kCellsAcross, std::max(kFinest * extent, affordable),
+                    std::max(kCoarsest * extent, affordable));
+}
+
+struct Pieces {
+  PolygonSoup soup;
+  Index genus = 0, solids = 0;
+};
+
+// Without crumbs, and with the handles of what is left counted.
+Pieces without_crumbs(const PolygonSoup& soup) {
+  constexpr double kCrumb = 0.025;
+  const auto points = static_cast<Index>(soup.points.size());
+  detail::DisjointSets sets(points);
+  for (std::size_t i = 0; i < soup.corners.size(); i += 3)
+    for (const std::size_t k : {i + 1, i + 2}) sets.unite(soup.corners[i], soup.corners[k]);
+  std::vector<Vector3> low(soup.points), high(soup.points);
+  std::vector<Index> euler(soup.points.size(), 0);  // twice
+  std::vector<double> volume(soup.points.size(), 0.0);
+  for (Index v = 0; v < points; ++v) {
+    const Index piece = sets.root(v);
+    low[piece] = low[piece].cwiseMin(soup.points[v]);
+    high[piece] = high[piece].cwiseMax(soup.points[v]);
+    euler[piece] += 2;
+  }
+  double largest = 0;
+  for (Index v = 0; v < points; ++v) largest = std::max(largest, (high[v] - low[v]).norm());
+  Pieces kept;
+  std::vector<Index> vertex(soup.points.size(), kNone);
+  for (std::size_t i = 0; i < soup.corners.size(); i += 3) {
+    const Index piece = sets.root(soup.corners[i]);
+    --euler[piece];
+    const auto at = [&](std::size_t k) { return Vector3(soup.points[soup.corners[k]] - soup.points[piece]); };
+    volume[piece] += at(i).dot(at(i + 1).cross(at(i + 2)));
+    if ((high[piece] - low[piece]).norm() < kCrumb * largest) continue;
+    for (std::size_t k = i; k < i + 3; ++k) {
+      Index& v = vertex[soup.corners[k]];
+      if (v == kNone) {
+        v = static_cast<Index>(kept.soup.points.size());
+        kept.soup.points.push_back(soup.points[soup.corners[k]]);
+      }
+      kept.soup.corners.push_back(v);
+    }
+    kept.soup.begin.push_back(static_cast<Index>(kept.soup.corners.size()));
+  }
+  for (Index v = 0; v < points; ++v) {
+    if (sets.root(v) != v || vertex[v] == kNone) continue;
+    kept.genus += (4 - euler[v]) / 4;
+    kept.solids += volume[v] > 0;
+  }
+  return kept;
+}
+
+// Nothing if the union has more handles than its shells have and n of them can make by touching: an assembly
+// of parts in contact, or walls too thin for the cells.
+std::optional<Pieces> unite(const SurfaceSnapshot& surface, const std::vector<Shell>& shells,
+                            const std::vector<Index>& members, double cell, const Execution& execution) {
+  const std::vector<Index> euler = twice_euler_characteristics(surface);
+  Index own = 0;
+  for (const Index m : members) own += (4 - euler[m]) / 4;
+  std::optional<Pieces> best;
+  for (const double margin : {0.0, 0.5 * std::sqrt(3.0) * cell}) {
+    if (best && best->genus <= own) break;
+    Pieces pieces =
+        without_crumbs(detail::boundary_of_union(surface, shells, members, cell, margin, execution));
+    if (pieces.solids > 0 && (!best || pieces.genus < best->genus)) best = std::move(pieces);
+  }
+  if (best && best->genus > own + static_cast<Index>(members.size())) best.reset();
+  return best;
+}
+
+class Uniting {
+ public:
+  Uniting(const SurfaceSnapshot& surface, const std::vector<Shell>& shells)
+      : surface_(surface), shells_(shells) {
+    united_.replaced.assign(shells.size(), false);
+    united_.vertex_of.assign(surface.position.size(), kNone);
+  }
+
+  void keep(Index component) {
+    for (const Index v : shells_[component].vertices) {
+      united_.vertex_of[v] = static_cast<Index>(united_.soup.points.size());
+      united_.soup.points.push_back(surface_.frame.to_model(surface_.position[v]));
+    }
+    for (const Index f : shells_[component].faces)
+      united_.soup.add_triangle(united_.vertex_of[surface_.origin[3 * f]],
+                                united_.vertex_of[surface_.origin[3 * f + 1]],
+                                united_.vertex_of[surface_.origin[3 * f + 2]]);
+  }
+
+  void replace(const std::vector<Index>& members, const Pieces& pieces, double cell) {
+    const auto first = static_cast<Index>(united_.soup.points.size());
+    for (const Vector3& p : pieces.soup.points) united_.soup.points.push_back(surface_.frame.to_model(p));
+    for (std::size_t i = 0; i < pieces.soup.corners.size(); i += 3)
+      united_.soup.add_triangle(first + pieces.soup.corners[i], first + pieces.soup.corners[i + 1],
+                                first + pieces.soup.corners[i + 2]);
+    const SurfaceSnapshot part = make_snapshot(build_mesh(pieces.soup));
+    const BoundingVolumeHierarchy tree(part);
+    for (const Index m : members) {
+      united_.replaced[m] = true;
+      for (const Index v : shells_[m].vertices)
+        united_.vertex_of[v] =
+            first + nearest_vertex(part, tree, part.frame.to_normalised(surface_.position[v]));
+    }
+    united_.shells += static_cast<Index>(members.size());
+    united_.solids += pieces.solids;
+    united_.cell = std::max(united_.cell, cell * surface_.frame.scale);
+  }
+
+  void leave_apart(const std::vector<Index>& members) {
+    for (const Index m : members) keep(m);
+    united_.left_apart += static_cast<Index>(members.size());
+  }
+
+  UnitedShells take() {
+    if (united_.shells == 0) united_.soup = {};
+    return std::move(united_);
+  }
+
+ private:
+  static Index nearest_vertex(const SurfaceSnapshot& part, const BoundingVolumeHierarchy& tree,
+                              const Vector3& p) {
+    const Index face = tree.closest(p).face;
+    Index best = part.origin[3 * face];
+    for (Index h = 3 * face + 1; h < 3 * face + 3; ++h)
+      if ((part.position[part.origin[h]] - p).squaredNorm() < (part.position[best] - p).squaredNorm())
+        best = part.origin[h];
+    return best;
+  }
+
+  const SurfaceSnapshot& surface_;
+  const std::vector<Shell>& shells_;
+  UnitedShells united_;
+};
+
+}  // namespace
+
+void validate(const UniteOptions& options) {
+  if (options.cell != 0 && !(options.cell >= 0.001 && options.cell <= 0.1))
+    throw UsageError("cells of united shells must be from 0.001 to 0.1 of the extent, or 0");
+}
+
+std::optional<UnitedShells> unite_crossing_shells(const SurfaceSnapshot& surface, const UniteOptions& options,
+                                                  const Execution& execution) {
+  validate(options);
+  if (surface.component_count < 2) return std::nullopt;
+  const std::vector<Shell> shells = detail::shells_of(surface);
+  const std::vector<std::vector<Index>> groups = detail::crossing_groups(surface, shells, execution.progress);
+  if (groups.empty()) return std::nullopt;
+  std::vector<bool> grouped(shells.size(), false);
+  for (const std::vector<Index>& group : groups)
+    for (const Index m : group) grouped[m] = true;
+  Uniting uniting(surface, shells);
+  for (Index c = 0; c < surface.component_count; ++c)
+    if (!grouped[c]) uniting.keep(c);
+  for (const std::vector<Index>& group : groups) {
+    const double cell = cell_for(surface, shells, group, options);
+    if (const std::optional<Pieces> pieces = unite(surface, shells, group, cell, execution))
+      uniting.replace(group, *pieces, cell);
+    else
+      uniting.leave_apart(group);
+  }
+  return uniting.take();
+}
+
+}  // namespace mspskel

@@ -1,0 +1,120 @@
+// Shells that cross each other become one solid; all others stay as they are.
+#include "mspskel/repair/unite_shells.h"
+
+#include <catch2/catch.hpp>
+
+#include "mspskel/base/error.h"
+#include "mspskel/mesh/build_mesh.h"
+#include "mspskel/mesh/mesh_report.h"
+#include "support/meshes.h"
+
+using namespace mspskel;
+using namespace mspskel::test;
+
+namespace {
+
+PolygonSoup box(const Vector3& low, const Vector3& high) {
+  PolygonSoup soup;
+  for (int k = 0; k < 8; ++k)
+    soup.points.emplace_back((k & 1 ? high : low)[0], (k & 2 ? high : low)[1], (k & 4 ? high : low)[2]);
+  constexpr Index kFaces[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                                   {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  for (const auto& [a, b, c] : kFaces) soup.add_triangle(a, b, c);
+  return soup;
+}
+
+PolygonSoup together(const std::vector<PolygonSoup>& soups) {
+  PolygonSoup all;
+  for (const PolygonSoup& soup : soups) {
+    const auto first = static_cast<Index>(all.points.size());
+    all.points.insert(all.points.end(), soup.points.begin(), soup.points.end());
+    for (std::size_t i = 0; i < soup.corners.size(); i += 3)
+      all.add_triangle(first + soup.corners[i], first + soup.corners[i + 1], first + soup.corners[i + 2]);
+  }
+  return all;
+}
+
+PolygonSoup shifted(PolygonSoup soup, const Vector3& by) {
+  for (Vector3& p : soup.points) p += by;
+  return soup;
+}
+
+std::optional<UnitedShells> unite(const PolygonSoup& soup, int threads = 1) {
+  Execution execution;
+  execution.threads = threads;
+  return unite_crossing_shells(make_snapshot(build_mesh(soup)), {}, execution);
+}
+
+MeshReport report_of(const PolygonSoup& soup) { return report_mesh(make_snapshot(build_mesh(soup)), {1}); }
+
+const PolygonSoup kAlongX = box({-3, -0.5, -0.5}, {3, 0.5, 0.5}),
+                  kAlongY = box({-0.4, -3, -0.4}, {0.4, 3, 0.4});
+
+}  // namespace
+
+TEST_CASE("bars that cross are one solid with the volume of their union, and their vertices find it") {
+  const PolygonSoup bars = together({kAlongX, kAlongY});
+  const auto united = unite(bars);
+  REQUIRE(united);
+  CHECK(united->shells == 2);
+  CHECK(united->solids == 1);
+  CHECK(united->left_apart == 0);
+  const MeshReport report = report_of(united->soup);
+  CHECK(report.components.size() == 1);
+  CHECK(report.genus == 0);
+  CHECK(report.self_intersections == 0);
+  CHECK(report.signed_volume == Approx(6 + 3.84 - 0.64).epsilon(0.02));
+  for (std::size_t v = 0; v < bars.points.size(); ++v)
+    CHECK((united->soup.points[united->vertex_of[v]] - bars.points[v]).norm() < 2 * united->cell);
+}
+
+TEST_CASE("a handle that is a shell of its own gives the pot a handle") {
+  const PolygonSoup ring = to_soup(torus(1, 0.2, 48, 16));
+  const auto united = unite(together({box({0.7, -1.5, -1.5}, {4, 1.5, 1.5}), ring}));
+  REQUIRE(united);
+  const MeshReport report = report_of(united->soup);
+  CHECK(report.components.size() == 1);
+  CHECK(report.genus == 1);
+}
+
+TEST_CASE("shells that cross no other stay as they are, beside the united ones") {
+  const PolygonSoup far = shifted(to_soup(torus(1, 0.4, 24, 12)), {0, 0, 9});
+  const auto united = unite(together({far, kAlongX, kAlongY}));
+  REQUIRE(united);
+  for (std::size_t v = 0; v < far.points.size(); ++v) {
+    CHECK(united->vertex_of[v] == static_cast<Index>(v));
+    CHECK((united->soup.points[v] - far.points[v]).norm() < 1e-12);
+  }
+  CHECK(united->replaced == std::vector<bool>{false, true, true});
+  CHECK(report_of(united->soup).components.size() == 2);
+}
+
+TEST_CASE("apart, within each other, linked or in contact: nothing to unite") {
+  const PolygonSoup ring = to_soup(torus(1, 0.3, 32, 16));
+  PolygonSoup turned = ring;
+  for (Vector3& p : turned.points) p = Vector3(p.x() + 1, p.z(), p.y());
+  CHECK_FALSE(unite(together({kAlongX, shifted(kAlongX, {0, 3, 0})})));
+  CHECK_FALSE(unite(together({kAlongX, box({-2, -0.3, -0.3}, {2, 0.3, 0.3})})));
+  CHECK_FALSE(unite(together({kAlongX, shifted(kAlongX, {0.3, 1, 0.2})})));
+  CHECK_FALSE(unite(kAlongX));
+  CHECK_FALSE(unite(together({ring, turned})));
+}
+
+TEST_CASE("walls thinner than the grid's cells do not become sieves") {
+  // A plate a thousandth as thick as wide, and a post through it.
+  const PolygonSoup plate = box({-4, -4, -0.002}, {4, 4, 0.002});
+  const auto united = unite(together({plate, box({-0.5, -0.5, -3}, {0.5, 0.5, 3})}));
+  REQUIRE(united);
+  REQUIRE(united->shells == 2);
+  CHECK(report_of(united->soup).genus == 0);
+}
+
+TEST_CASE("the union does not depend on the threads, and options are checked") {
+  const PolygonSoup bars = together({kAlongX, kAlongY});
+  const auto one = unite(bars, 1), three = unite(bars, 3);
+  CHECK(one->soup.points == three->soup.points);
+  CHECK(one->soup.corners == three->soup.corners);
+  UniteOptions options;
+  options.cell = 0.2;
+  CHECK_THROWS_AS(validate(options), UsageError);
+}
