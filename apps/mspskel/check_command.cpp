@@ -21,33 +21,6 @@
 namespace mspskel::cli {
 namespace {
 
-Json checks_json(const SkeletonChecks& checks, const TopologyCertificate& certificate) {
-  return Json{{"topology", checks.topology},
-              {"certificate", certificate_json(certificate)},
-              {"b0", checks.b0},
-              {"b1", checks.b1},
-              {"components", checks.components},
-              {"genus", checks.genus},
-              {"contained", checks.contained},
-              {"inside", checks.inside},
-              {"outside_nodes", checks.outside_nodes},
-              {"crossing_edges", checks.crossing_edges},
-              {"nodes", checks.nodes},
-              {"edges", checks.edges},
-              {"leaves", checks.leaves},
-              {"joints", checks.joints},
-              {"spurs", checks.spurs},
-              {"length", checks.length},
-              {"longest_edge", checks.longest_edge},
-              {"off_centre_mean", checks.off_centre_mean},
-              {"off_centre_p90", checks.off_centre_p90},
-              {"cover_mean", checks.cover_mean},
-              {"cover_p95", checks.cover_p95},
-              {"bend", checks.bend},
-              {"radius_error", checks.radius_error},
-              {"diagonal", checks.diagonal}};
-}
-
 void print(const SkeletonChecks& c, const TopologyCertificate& certificate) {
   std::printf("topology     %s: %s and %s on a surface of %s and genus %d\n", c.topology ? "right" : "WRONG",
               counted(c.b0, "piece").c_str(), counted(c.b1, "cycle").c_str(),

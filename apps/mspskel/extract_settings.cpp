@@ -2,15 +2,12 @@
 
 #include <filesystem>
 #include <iostream>
-#include <limits>
 
 #include "commands.h"
 #include "mspskel/base/error.h"
 
 namespace mspskel::cli {
 namespace {
-
-constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 constexpr const char* kDescription =
     "Curve skeleton of a closed triangle mesh by minimum slice perimeter (MSP).";
@@ -26,140 +23,18 @@ Exit status: 0 done, 1 usage, 2 cannot read, 3 the mesh is not usable, 4 cannot 
 6 time limit or interrupted.
 )";
 
-// The mode decides what the other options' defaults are, so it is looked for first; whether the word is a
-// mode at all is the parser's affair.
-std::string wanted_mode(const std::vector<std::string>& arguments) {
-  std::string mode;
-  for (std::size_t i = 0; i < arguments.size() && arguments[i] != "--"; ++i) {
-    if (arguments[i] == "--mode" && i + 1 < arguments.size()) mode = arguments[i + 1];
-    if (arguments[i].rfind("--mode=", 0) == 0) mode = arguments[i].substr(7);
-  }
-  return mode;
-}
-
-void add_slice_options(CommandLine& line, ExtractOptions& options, int& planes) {
-  line.group("Slices");
-  line.toggle("coarsen", options.coarsen, "work on a coarser surface where the mesh is finer than needed");
-  line.number("--coarse-vertices", options.coarsening.vertices, {4, 1e9},
-              "what a finer mesh is coarsened to; arcs are still centred in the mesh itself");
-  line.number("--limb-vertices", options.limb_vertices, {4, 1e9},
-              "vertices of the surface on which limbs are told, where the mesh is finer");
-  line.choice<SliceMethod>("--slice-method", options.slices,
-                           {{"search", SliceMethod::kSearch}, {"sampling", SliceMethod::kSampling}},
-                           "search: local search from a few planes; sampling: all planes, then cones");
-  line.number("--slices", planes, {1, 1000},
-              "planes tried at a vertex; where search begins, or all of sampling");
-  line.number("--search-spread", options.search.spread, {0, 1000},
-              "search: planes over all angles and tilts tried at a vertex");
-  line.number("--search-rounds", options.search.rounds, {0, 1000},
-              "search: most rounds in which vertices look at their neighbours' planes");
-  line.number("--search-tilt", options.search.max_tilt, {0, 89},
-              "search: largest angle between plane and vertex normal, degrees");
-  line.toggle("cone", options.cone.enabled, "sampling: try more planes where the slice error is high");
-  line.number("--cone-threshold", options.cone.threshold, {0, 1},
-              "sampling: slice error above which a vertex is refined");
-  line.number("--cone-directions", options.cone.directions, {1, 1000}, "sampling: directions in the cone");
-  line.number("--cone-min-angle", options.cone.min_angle, {0, 89},
-              "sampling: half angle of the cone at the threshold, degrees, and not above that at error 1");
-  line.number("--cone-max-angle", options.cone.max_angle, {0, 89},
-              "sampling: half angle of the cone at error 1, degrees");
-  line.choice<SliceErrorAverage>(
-      "--error-average", options.error.average,
-      {{"mean", SliceErrorAverage::kMean},
-       {"sum", SliceErrorAverage::kSum},
-       {"arc", SliceErrorAverage::kArcMean}},
-      "of the angles along a slice: over its points, their sum, or over its length");
-  line.choice<SliceErrorScale>(
-      "--error-scale", options.error.scale,
-      {{"minmax", SliceErrorScale::kMinMax}, {"right-angle", SliceErrorScale::kRightAngle}},
-      "what becomes 0 and 1: the mesh's least and largest, or no angle and a right angle");
-}
-
-void add_point_options(CommandLine& line, ExtractOptions& options) {
-  SkeletalPointOptions& point = options.points.point;
-  line.group("Skeletal points");
-  line.choice<SkeletalPointMethod>("--point", point.method,
-                                   {{"centre", SkeletalPointMethod::kCentre},
-                                    {"sampled-force", SkeletalPointMethod::kSampledForce},
-                                    {"force", SkeletalPointMethod::kClosedForm},
-                                    {"area-field", SkeletalPointMethod::kAreaField},
-                                    {"visible-field", SkeletalPointMethod::kVisibleField}},
-                                   "where in its slice a skeletal point lies");
-  line.choice<HoleSearch>(
-      "--holes", options.points.holes,
-      {{"ignore", HoleSearch::kIgnore}, {"probe", HoleSearch::kProbe}, {"all", HoleSearch::kAll}},
-      "whether holes in a slice repel: no, those in sight, all");
-  line.number("--moving-samples", point.moving_samples, {1, 10000},
-              "sampled force: samples that seek a minimum");
-  line.number("--force-samples", point.force_samples, {3, 100000}, "sampled force: samples of the contour");
-  line.number("--displacement", point.displacement, {1e-9, 0.1},
-              "sampled force: first distance from the contour, in perimeters");
-  line.number("--force-step", point.step, {1e-6, 0.9}, "sampled force: a step, in distances to the contour");
-  line.number("--merge-radius", point.merge_radius, {0, 1}, "minima closer than this are one, in perimeters");
-  line.number("--starts", point.starts, {1, 10000}, "force: descents");
-  line.toggle("coherence", options.coherence.enabled,
-              "move doubtful skeletal points toward their neighbours");
-  line.number("--coherence-strength", options.coherence.strength, {0, 10},
-              "weight of the neighbours against a certain point's own");
-}
-
-void add_collapse_options(CommandLine& line, ExtractOptions& options) {
-  CollapseOptions& collapse = options.collapse;
-  line.group("Collapse");
-  line.number("--lambda", collapse.lambda, {0, kUnlimited}, "weight of the slice error in an edge's cost");
-  line.number("--saturation", collapse.saturation_threshold, {0, kUnlimited},
-              "an edge without faces collapses below this saturation");
-  line.choice<EdgePolicy>("--bare-edges", collapse.one_dimensional,
-                          {{"saturation", EdgePolicy::kSaturation}, {"keep", EdgePolicy::kKeep}},
-                          "what becomes of edges without faces");
-  line.number("--angle-floor", collapse.angle_floor, {0, 1.57},
-              "least angle between slices in the cost, radians");
-  line.choice<CollapseOrder>("--order", collapse.order,
-                             {{"cost", CollapseOrder::kCost}, {"length", CollapseOrder::kShortestFirst}},
-                             "of the edges that collapse");
-  line.toggle("keep-topology", collapse.keep_topology,
-              "refuse what would lose or make a handle; without it, the thesis's literal behaviour");
-  line.toggle("filter", options.filter_branches,
-              "drop branches that do not leave their joint's ball, merge joints (thesis 6.1)");
-  line.number("--filter-ball", options.filter.ball_scale, {0, 100}, "filter: the ball, in radii MSP / 2 pi");
-}
-
-void add_arc_options(CommandLine& line, ExtractOptions& options, double& step, double& detail) {
-  RefinementOptions& refinement = options.refinement;
-  line.group("Arcs; lengths are shares of the model's extent");
-  line.toggle("refine", refinement.enabled, "lead arcs inside, prune, centre and extend them");
-  line.number("--step", step, {0.0005, 0.5}, "distance of the nodes along an arc");
-  line.number("--nodes", refinement.nodes, {0, 1e9}, "at most so many nodes; 0: as many as the step gives");
-  line.number("--detail", detail, {0.01, 100},
-              "2 keeps limbs half as slender as 1 does, 0.5 only those twice as slender");
-  line.number("--smallest", refinement.limbs.smallest, {0, 1}, "features below this size are noise");
-  line.number("--centring-rounds", refinement.centering.rounds, {0, 100}, "of sections and solves");
-  line.number("--smoothness", refinement.centering.smoothness, {0.1, 1e6}, "weight of straight arcs");
-  line.number("--tip-clearance", refinement.extension.tip_clearance, {0.05, 2},
-              "where arcs end before a tip, in radii of the limb's end");
-  line.number("--joint-overlap", refinement.joint_overlap, {0, 10},
-              "joints closer than this are one, in radii of the smaller ball");
-}
-
 }  // namespace
 
 bool parse_extract_settings(const std::vector<std::string>& arguments, ExtractSettings& settings) {
   CommandLine line("IN [OUT...] [options]", kDescription, kFooter);
-  ExtractOptions& options = settings.options;
-  options = wanted_mode(arguments) == "thesis" ? thesis_options() : default_options();
+  RunOptionTable table(arguments, settings.run);
   bool version = false;
-  std::uint64_t seed = options.cone.seed;
 
   line.argument("IN", settings.input, "mesh (.off .obj .ply .stl), - for stdin");
   line.arguments("OUT", settings.outputs,
                  "skeletons, by extension: .skel .obj .ply .json .swc .vtp .graphml .cgal .polylines.txt; "
                  ".html is a page to look at; - is .skel on stdout; IN with .skel by default");
-  line.group("General");
-  line.choice<Mode>("--mode", options.mode, {{"default", Mode::kDefault}, {"thesis", Mode::kThesis}},
-                    "thesis: every formula and constant as printed; changes the defaults below");
-  line.number("-t,--threads", settings.threads, {0, 4096}, "0: as many as the machine has");
-  line.number("--seed", seed, kSeedRange, "of the directions in the cones");
-  line.number("--time-limit", settings.time_limit, {0, 1e9}, "seconds; 0: none");
+  table.add_general(line);
   line.text("--report", settings.report, "FILE", "what was done and found, as JSON; - for stdout");
   line.text("--stages", settings.stages, "DIR", "what lies between the stages: msp.csv and coloured meshes");
   line.flag("--keep-failed", settings.keep_failed,
@@ -167,28 +42,17 @@ bool parse_extract_settings(const std::vector<std::string>& arguments, ExtractSe
   line.flag("-q,--quiet", settings.quiet, "no warnings, no progress");
   line.flag("-v,--verbose", settings.verbose, "a word about every stage");
   line.flag("--version", version, "print the version and the libraries' versions and exit");
-  add_repair_options(line, settings.repair);
-  line.text("--write-mesh", settings.repair.write_mesh, "FILE",
+  add_repair_options(line, settings.run.repair);
+  line.text("--write-mesh", settings.run.repair.write_mesh, "FILE",
             "the surface that the skeleton belongs to (.off .obj .ply)");
-  int planes = options.slices == SliceMethod::kSearch ? options.search.angles : options.sampling.planes;
-  const double usual_step = options.refinement.centering.step;
-  double step = usual_step, detail = 1;
-  add_slice_options(line, options, planes);
-  add_point_options(line, options);
-  add_collapse_options(line, options);
-  add_arc_options(line, options, step, detail);
+  table.add_stages(line);
   if (!line.parse(arguments)) return false;
   if (version) {
     std::cout << version_text();
     return false;
   }
   if (settings.input.empty()) throw UsageError("which mesh? usage: mspskel IN [OUT...] [options]");
-  settings.repair.resolve();
-  options.cone.seed = seed;
-  if (line.given("--slices")) options.search.angles = options.sampling.planes = planes;
-  if (step != usual_step) options.refinement.node_spacing = step;
-  options.execution.threads = settings.threads;
-  options.refinement.limbs.slenderness /= detail;
+  table.resolve(line);
   settings.values = line.values();
   if (settings.outputs.empty())
     settings.outputs.push_back(

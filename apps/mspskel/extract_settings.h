@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "command_line.h"
-#include "mesh_input.h"
-#include "mspskel/extract_skeleton.h"
+#include "run_options.h"
 #include "terminal.h"
 
 namespace mspskel::cli {
@@ -16,13 +15,10 @@ struct ExtractSettings {
   std::vector<std::string> outputs;
   std::string report;  // empty: none
   std::string stages;  // folder; empty: none
-  double time_limit = 0;
-  int threads = 0;
   bool keep_failed = false;
   bool quiet = false;
   bool verbose = false;
-  RepairSettings repair;
-  ExtractOptions options;
+  RunOptions run;
   Json values;  // of all options, for the report
 
   Verbosity verbosity() const {

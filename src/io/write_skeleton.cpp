@@ -6,6 +6,7 @@
 #include "append_text.h"
 #include "mesh_parsers.h"
 #include "mspskel/base/error.h"
+#include "mspskel/graph/spanning_forest.h"
 #include "mspskel/io/atomic_file.h"
 
 namespace mspskel {
@@ -84,36 +85,6 @@ std::string format_json(const CurveSkeleton& skeleton, const std::string& report
     document["report"] = std::move(parsed);
   }
   return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
-// A breadth-first tree of every component: nodes in order, parents first, and the edges that are left.
-struct SpanningForest {
-  std::vector<Index> order, parent;
-  std::vector<std::array<Index, 2>> cut;
-};
-SpanningForest span(const CurveSkeleton& skeleton) {
-  const auto neighbors = adjacency(skeleton);
-  const auto count = static_cast<Index>(skeleton.nodes.size());
-  SpanningForest forest;
-  forest.parent.assign(skeleton.nodes.size(), kNone);
-  std::vector<char> seen(skeleton.nodes.size(), 0);
-  for (Index root = 0; root < count; ++root) {
-    if (seen[root]) continue;
-    seen[root] = 1;
-    std::size_t at = forest.order.size();
-    for (forest.order.push_back(root); at < forest.order.size(); ++at) {
-      const Index v = forest.order[at];
-      for (const Index w : neighbors[v]) {
-        if (seen[w]) continue;
-        seen[w] = 1;
-        forest.parent[w] = v;
-        forest.order.push_back(w);
-      }
-    }
-  }
-  for (const auto& [a, b] : skeleton.edges)
-    if (forest.parent[a] != b && forest.parent[b] != a) forest.cut.push_back({a, b});
-  return forest;
 }
 
 std::string format_swc(const CurveSkeleton& skeleton) {

@@ -33,11 +33,11 @@ double refined_share(const VertexSlices& slices) {
   return static_cast<double>(refined) / static_cast<double>(slices.refined.size());
 }
 
-Json input_facts(const ExtractSettings& settings, const ExtractResult& result) {
+Json input_facts(const std::string& file, const ExtractResult& result) {
   const SurfaceSnapshot& surface = result.surface;
   Index genus = 0;
   for (const Index g : result.cocycles.genus) genus += g;
-  return {{"file", settings.input},
+  return {{"file", file},
           {"vertices", surface.vertex_count()},
           {"faces", surface.face_count()},
           {"components", surface.component_count},
@@ -73,10 +73,10 @@ Json stage_seconds(const ExtractResult& result, const ProgramSeconds& program) {
 
 }  // namespace
 
-Json make_report(const ExtractSettings& settings, const ExtractResult& result,
+Json make_report(const std::string& file, const ExtractResult& result,
                  const TopologyCertificate& certificate) {
   const GraphCounts graph = count_graph(result.skeleton);
-  return {{"input", input_facts(settings, result)},
+  return {{"input", input_facts(file, result)},
           {"counts", work_counts(result)},
           {"skeleton",
            {{"nodes", graph.nodes},
@@ -89,17 +89,44 @@ Json make_report(const ExtractSettings& settings, const ExtractResult& result,
           {"warnings", result.warnings}};
 }
 
-Json with_costs(const Json& report, const ExtractSettings& settings, const ExtractResult& result,
+Json with_costs(const Json& report, const Json& options, const ExtractResult& result,
                 const ProgramSeconds& seconds) {
   return {{"input", report["input"]},
           {"repair", report["repair"]},
-          {"options", settings.values},
+          {"options", options},
           {"counts", report["counts"]},
           {"seconds", stage_seconds(result, seconds)},
           {"peak_memory_bytes", peak_memory_bytes()},
           {"skeleton", report["skeleton"]},
           {"checks", report["checks"]},
           {"warnings", report["warnings"]}};
+}
+
+Json checks_json(const SkeletonChecks& checks, const TopologyCertificate& certificate) {
+  return Json{{"topology", checks.topology},
+              {"certificate", certificate_json(certificate)},
+              {"b0", checks.b0},
+              {"b1", checks.b1},
+              {"components", checks.components},
+              {"genus", checks.genus},
+              {"contained", checks.contained},
+              {"inside", checks.inside},
+              {"outside_nodes", checks.outside_nodes},
+              {"crossing_edges", checks.crossing_edges},
+              {"nodes", checks.nodes},
+              {"edges", checks.edges},
+              {"leaves", checks.leaves},
+              {"joints", checks.joints},
+              {"spurs", checks.spurs},
+              {"length", checks.length},
+              {"longest_edge", checks.longest_edge},
+              {"off_centre_mean", checks.off_centre_mean},
+              {"off_centre_p90", checks.off_centre_p90},
+              {"cover_mean", checks.cover_mean},
+              {"cover_p95", checks.cover_p95},
+              {"bend", checks.bend},
+              {"radius_error", checks.radius_error},
+              {"diagonal", checks.diagonal}};
 }
 
 std::string report_text(const Json& report, int indent) {

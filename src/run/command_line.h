@@ -17,6 +17,15 @@ struct Range {
   double high;
 };
 
+// What --help says of an option.
+struct OptionEntry {
+  std::string name;   // without dashes
+  std::string group;  // heading
+  std::string value;  // N, FILE, words with bars between them; empty for a switch
+  std::string initial;
+  std::string help;
+};
+
 // One command's options. Errors are UsageErrors; an unknown option is answered with the nearest known one.
 class CommandLine {
  public:
@@ -48,6 +57,8 @@ class CommandLine {
   // Values of all options, by name without dashes, in order of their listing.
   Json values() const;
   std::string help() const { return app_.help(); }
+  // All options in order of their listing.
+  std::vector<OptionEntry> entries() const;
 
  private:
   CLI::Option* add(CLI::Option* option, const std::string& value, std::function<Json()> value_of);

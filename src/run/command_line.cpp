@@ -197,4 +197,14 @@ Json CommandLine::values() const {
   return values;
 }
 
+std::vector<OptionEntry> CommandLine::entries() const {
+  std::vector<OptionEntry> entries;
+  for (const auto& listed : values_) {
+    const CLI::Option* option = app_.get_option("--" + listed.first);
+    entries.push_back({listed.first, option->get_group(), option->get_option_text(),
+                       option->get_default_str(), option->get_description()});
+  }
+  return entries;
+}
+
 }  // namespace mspskel::cli

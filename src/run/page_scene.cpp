@@ -1,4 +1,4 @@
-#include "page_output.h"
+#include "page_scene.h"
 
 #include <algorithm>
 #include <cctype>
@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "mspskel/render/render.h"
-#include "mspskel/view/viewer_page.h"
 
 namespace mspskel::cli {
 namespace {
@@ -51,8 +50,7 @@ bool is_page(const std::string& path) {
   return extension == ".html" || extension == ".htm";
 }
 
-void write_page(const std::string& path, const std::string& input, const ExtractResult& result,
-                const Json& report) {
+ViewerScene make_page_scene(const std::string& input, const ExtractResult& result, const Json& report) {
   const NormalisedFrame& frame = result.surface.frame;
   ViewerScene scene;
   scene.title = input == "-" ? "standard input" : std::filesystem::path(input).filename().string();
@@ -68,7 +66,7 @@ void write_page(const std::string& path, const std::string& input, const Extract
   scene.slice_normal = result.slices.normal;
   scene.places = {vertices_without_slice(result), faces_without_area(result.surface)};
   scene.report = report_text(report);
-  write_viewer_page(path, scene);
+  return scene;
 }
 
 }  // namespace mspskel::cli

@@ -1,0 +1,16 @@
+// What a run found, as a page to look at.
+#pragma once
+
+#include "mspskel/extract_skeleton.h"
+#include "mspskel/view/viewer_page.h"
+#include "report.h"
+
+namespace mspskel::cli {
+
+// Whether the path is that of a page: by extension, in any case.
+bool is_page(const std::string& path);
+
+// `input` is the mesh's file, or - for standard input; `report` is that of make_report or with_costs.
+ViewerScene make_page_scene(const std::string& input, const ExtractResult& result, const Json& report);
+
+}  // namespace mspskel::cli

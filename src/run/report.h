@@ -1,0 +1,36 @@
+// What a run did, for programs.
+#pragma once
+
+#include <string>
+
+#include "command_line.h"
+#include "mspskel/collapse/topology_certificate.h"
+#include "mspskel/extract_skeleton.h"
+#include "mspskel/graph/check_skeleton.h"
+
+namespace mspskel::cli {
+
+// Seconds that only the program knows.
+struct ProgramSeconds {
+  double total = 0;
+  double read = 0;
+  double write = 0;
+};
+
+// What was found, the same on every run: input, counts, skeleton, checks, warnings. `file` is the mesh's; the
+// checks are the certificate.
+Json make_report(const std::string& file, const ExtractResult& result,
+                 const TopologyCertificate& certificate);
+
+// With what differs from run to run: the options' values, seconds, peak memory.
+Json with_costs(const Json& report, const Json& options, const ExtractResult& result,
+                const ProgramSeconds& seconds);
+
+// What `check` found.
+Json checks_json(const SkeletonChecks& checks, const TopologyCertificate& certificate);
+
+// The JSON text, indented by so many blanks, or on one line if negative. Paths that are not UTF-8 get
+// replacement characters.
+std::string report_text(const Json& report, int indent = 2);
+
+}  // namespace mspskel::cli

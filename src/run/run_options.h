@@ -1,0 +1,40 @@
+// What is computed, as options with names and ranges.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "command_line.h"
+#include "mesh_input.h"
+#include "mspskel/extract_skeleton.h"
+
+namespace mspskel::cli {
+
+struct RunOptions {
+  ExtractOptions extract;
+  RepairSettings repair;
+  double time_limit = 0;  // seconds; 0: none
+};
+
+// Adds the options to a command line that is to be parsed with `arguments`, in three steps between which the
+// command may list options of its own; repair options are added by add_repair_options. `target` and the table
+// must outlive the parsing.
+class RunOptionTable {
+ public:
+  // Sets the target to the defaults of the mode that the arguments ask for.
+  RunOptionTable(const std::vector<std::string>& arguments, RunOptions& target);
+
+  void add_general(CommandLine& line);  // mode, threads, seed, time limit
+  void add_stages(CommandLine& line);   // slices, skeletal points, collapse, arcs
+  // After parsing: options that stand for several settings. Throws UsageError.
+  void resolve(const CommandLine& line);
+
+ private:
+  RunOptions& target_;
+  std::uint64_t seed_ = 0;
+  int planes_ = 0;
+  double step_ = 0, usual_step_ = 0, detail_ = 1;
+};
+
+}  // namespace mspskel::cli
