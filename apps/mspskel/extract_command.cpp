@@ -104,6 +104,7 @@ Extraction extract_and_check(const ExtractSettings& settings, const Cancellation
   MeshInput input =
       prepare_mesh(read_polygon_soup(settings.input), settings.run.repair, settings.run.extract.execution);
   seconds.read = reading.seconds();
+  settings.root.resolve(input.repair.openings);  // what is wrong with it shows before the work
   cancellation.throw_if_requested();
   Extraction extraction;
   extraction.made = extract_from(std::move(input), settings.run.extract);
@@ -123,7 +124,8 @@ void write_files(const ExtractSettings& settings, const Extraction& extraction, 
     if (is_page(output))
       write_viewer_page(output, make_page_scene(settings.input, made.result, extraction.facts));
     else
-      write_skeleton(output, skeleton, extraction.reported ? report_text(extraction.facts) : "");
+      write_skeleton(output, skeleton, extraction.reported ? report_text(extraction.facts) : "",
+                     settings.root.resolve(made.input.repair.openings));
   }
   if (!settings.stages.empty()) write_stage_files(settings.stages, made.result);
   seconds.write = writing.seconds();

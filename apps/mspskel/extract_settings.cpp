@@ -17,6 +17,8 @@ constexpr const char* kFooter =
   mspskel sample NAME [OUT]                closed meshes with known answers
   mspskel render MESH [SKELETON] OUT.png   a picture
   mspskel check MESH SKELETON              verifies a skeleton against its mesh
+  mspskel convert SKELETON OUT...          the same skeleton in other formats
+  mspskel info FILE                        what a mesh or a skeleton is, in numbers
 
 Exit status: 0 done, 1 usage, 2 cannot read, 3 the mesh is not usable, 4 cannot write,
 5 no skeleton, or one whose pieces or cycles are not the mesh's (see --keep-failed),
@@ -37,6 +39,7 @@ bool parse_extract_settings(const std::vector<std::string>& arguments, ExtractSe
   table.add_general(line);
   line.text("--report", settings.report, "FILE", "what was done and found, as JSON; - for stdout");
   line.text("--stages", settings.stages, "DIR", "what lies between the stages: msp.csv and coloured meshes");
+  settings.root.add_to(line);
   line.flag("--keep-failed", settings.keep_failed,
             "write the skeleton even if it fails its checks; the exit status is 5 all the same");
   line.flag("-q,--quiet", settings.quiet, "no warnings, no progress");
@@ -54,6 +57,7 @@ bool parse_extract_settings(const std::vector<std::string>& arguments, ExtractSe
   if (settings.input.empty()) throw UsageError("which mesh? usage: mspskel IN [OUT...] [options]");
   table.resolve(line);
   settings.values = line.values();
+  if (settings.root.text.rfind("open:", 0) != 0) settings.root.resolve({});
   if (settings.outputs.empty())
     settings.outputs.push_back(
         settings.input == "-" ? "-"

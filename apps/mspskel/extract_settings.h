@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "command_line.h"
+#include "root_option.h"
 #include "run_options.h"
 #include "terminal.h"
 
@@ -15,6 +16,7 @@ struct ExtractSettings {
   std::vector<std::string> outputs;
   std::string report;  // empty: none
   std::string stages;  // folder; empty: none
+  RootOption root;
   bool keep_failed = false;
   bool quiet = false;
   bool verbose = false;

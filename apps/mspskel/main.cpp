@@ -21,8 +21,11 @@ namespace {
 
 int run(const std::vector<std::string>& words) {
   using Command = int (*)(const std::vector<std::string>&);
-  const std::pair<const char*, Command> commands[] = {
-      {"sample", sample_command}, {"render", render_command}, {"check", check_command}};
+  const std::pair<const char*, Command> commands[] = {{"sample", sample_command},
+                                                      {"render", render_command},
+                                                      {"check", check_command},
+                                                      {"convert", convert_command},
+                                                      {"info", info_command}};
   for (const auto& [name, command] : commands) {
     if (!words.empty() && words.front() == name) return command({words.begin() + 1, words.end()});
   }

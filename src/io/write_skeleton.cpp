@@ -6,8 +6,8 @@
 #include "append_text.h"
 #include "mesh_parsers.h"
 #include "mspskel/base/error.h"
-#include "mspskel/graph/spanning_forest.h"
 #include "mspskel/io/atomic_file.h"
+#include "write_vtp.h"
 
 namespace mspskel {
 namespace {
@@ -87,15 +87,20 @@ std::string format_json(const CurveSkeleton& skeleton, const std::string& report
   return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::string format_swc(const CurveSkeleton& skeleton) {
-  const SpanningForest forest = span(skeleton);
-  std::vector<Index> id(skeleton.nodes.size());
+// Types: 1 soma, 5 fork, 6 end, 0 else.
+std::string format_swc(const CurveSkeleton& skeleton, const RootChoice& root) {
+  const SpanningForest forest = span(skeleton, root);
+  std::vector<Index> id(skeleton.nodes.size()), children(skeleton.nodes.size(), 0);
   for (std::size_t i = 0; i < forest.order.size(); ++i) id[forest.order[i]] = static_cast<Index>(i + 1);
+  for (const Index parent : forest.parent)
+    if (parent != kNone) ++children[parent];
   std::string out = "# index type x y z radius parent\n";
   for (const auto& [a, b] : forest.cut) append_all(out, "# cut edge ", id[a], ' ', id[b], '\n');
   for (const Index v : forest.order) {
-    const Index parent = forest.parent[v];
-    append_all(out, id[v], " 0 ", skeleton.nodes[v].position, ' ', skeleton.nodes[v].radius, ' ',
+    const Index parent = forest.parent[v], ways = children[v] + (parent != kNone);
+    const bool soma = parent == kNone && is_soma(skeleton, v);
+    const Index type = soma ? 1 : ways > 2 ? 5 : ways == 1 ? 6 : 0;
+    append_all(out, id[v], ' ', type, ' ', skeleton.nodes[v].position, ' ', skeleton.nodes[v].radius, ' ',
                parent == kNone ? Index{-1} : id[parent], '\n');
   }
   return out;
@@ -119,45 +124,6 @@ std::string format_polylines(const CurveSkeleton& skeleton) {
   }
   for (const Index v : isolated_nodes(skeleton)) append_all(out, "1 ", skeleton.nodes[v].position, '\n');
   return out;
-}
-
-// <Verts> or <Lines>: where each cell ends in the list of its points.
-void append_cells(std::string& out, const char* name, const std::vector<std::vector<Index>>& cells) {
-  append_all(out, "      <", name,
-             ">\n        <DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">");
-  for (const auto& cell : cells)
-    for (const Index v : cell) append_all(out, ' ', v);
-  append(out, " </DataArray>\n        <DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">");
-  std::size_t end = 0;
-  for (const auto& cell : cells) append_all(out, ' ', end += cell.size());
-  append_all(out, " </DataArray>\n      </", name, ">\n");
-}
-
-std::string format_vtp(const CurveSkeleton& skeleton) {
-  std::vector<std::vector<Index>> dots, lines;
-  for (const Index v : isolated_nodes(skeleton)) dots.push_back({v});
-  for (Branch& branch : branches(skeleton)) lines.push_back(std::move(branch.nodes));
-  std::string out =
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\">\n  "
-      "<PolyData>\n";
-  append_all(out, "    <Piece NumberOfPoints=\"", skeleton.nodes.size(), "\" NumberOfVerts=\"", dots.size(),
-             "\" NumberOfLines=\"", lines.size(), "\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n");
-  append(out,
-         "      <PointData Scalars=\"MaximumInscribedSphereRadius\">\n        <DataArray type=\"Float64\" "
-         "Name=\"MaximumInscribedSphereRadius\" format=\"ascii\">");
-  for (const SkeletonNode& node : skeleton.nodes) append_all(out, ' ', node.radius);
-  append(out,
-         " </DataArray>\n      </PointData>\n      <CellData Scalars=\"GroupIds\">\n        <DataArray "
-         "type=\"Int64\" Name=\"GroupIds\" format=\"ascii\">");
-  for (std::size_t i = 0; i < dots.size() + lines.size(); ++i) append_all(out, ' ', i);
-  append(out,
-         " </DataArray>\n      </CellData>\n      <Points>\n        <DataArray type=\"Float64\" "
-         "NumberOfComponents=\"3\" format=\"ascii\">");
-  for (const SkeletonNode& node : skeleton.nodes) append_all(out, ' ', node.position);
-  append(out, " </DataArray>\n      </Points>\n");
-  append_cells(out, "Verts", dots);
-  append_cells(out, "Lines", lines);
-  return out + "    </Piece>\n  </PolyData>\n</VTKFile>\n";
 }
 
 std::string format_graphml(const CurveSkeleton& skeleton) {
@@ -205,7 +171,8 @@ void refuse_not_finite(const CurveSkeleton& skeleton) {
   }
 }
 
-std::string format_skeleton(const CurveSkeleton& skeleton, SkeletonFormat format, const std::string& report) {
+std::string format_skeleton(const CurveSkeleton& skeleton, SkeletonFormat format, const std::string& report,
+                            const RootChoice& root) {
   refuse_not_finite(skeleton);
   switch (format) {
     case SkeletonFormat::kSkel:
@@ -217,9 +184,9 @@ std::string format_skeleton(const CurveSkeleton& skeleton, SkeletonFormat format
     case SkeletonFormat::kJson:
       return format_json(skeleton, report);
     case SkeletonFormat::kSwc:
-      return format_swc(skeleton);
+      return format_swc(skeleton, root);
     case SkeletonFormat::kVtp:
-      return format_vtp(skeleton);
+      return detail::format_vtp(skeleton, root);
     case SkeletonFormat::kGraphml:
       return format_graphml(skeleton);
     default:
@@ -235,8 +202,9 @@ std::vector<std::string> losses_of_format(const CurveSkeleton& skeleton, Skeleto
           (cuts == 1 ? " loop was cut" : " loops were cut") + ", the cut edges are comments"};
 }
 
-void write_skeleton(const std::string& path, const CurveSkeleton& skeleton, const std::string& report) {
-  write_file_atomically(path, format_skeleton(skeleton, skeleton_format_of(path), report));
+void write_skeleton(const std::string& path, const CurveSkeleton& skeleton, const std::string& report,
+                    const RootChoice& root) {
+  write_file_atomically(path, format_skeleton(skeleton, skeleton_format_of(path), report, root));
 }
 
 }  // namespace mspskel

@@ -12,7 +12,7 @@ import unittest
 from program import PROGRAM, SOURCE, ProgramTest
 
 PAGE = SOURCE / "docs" / "command_line.md"
-COMMANDS = ["", "sample", "render", "check"]
+COMMANDS = ["", "sample", "render", "check", "convert", "info"]
 
 
 def page():

@@ -7,3 +7,9 @@ foreach(test ${cli_tests})
   add_test(NAME "cli: ${name}" COMMAND Python3::Interpreter -B ${test})
   set_tests_properties("cli: ${name}" PROPERTIES ENVIRONMENT MSPSKEL_PROGRAM=$<TARGET_FILE:mspskel_cli>)
 endforeach()
+
+add_test(NAME "cli: files in the programs that read them"
+  COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_SOURCE_DIR}/cli/readers.py $<TARGET_FILE:mspskel_cli> ${PROJECT_SOURCE_DIR}
+    ${PROJECT_BINARY_DIR}/readers_test)
+# 77: no VTK or networkx to be had.
+set_tests_properties("cli: files in the programs that read them" PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 600)

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mspskel/graph/curve_skeleton.h"
+#include "mspskel/graph/spanning_forest.h"
 
 namespace mspskel {
 
@@ -13,8 +14,9 @@ enum class SkeletonFormat {
   kObj,        // .obj: v and l
   kPly,        // .ply: text; vertices with radius, edges with vertex1 and vertex2
   kJson,       // .json: node-link form (networkx) with radii, branches, surface map and report
-  kSwc,        // .swc: index type x y z radius parent; loops are cut, each cut edge is kept as a comment
-  kVtp,        // .vtp: a polyline a branch with MaximumInscribedSphereRadius and GroupIds
+  kSwc,        // .swc: index type x y z radius parent, types 1 soma, 5 fork, 6 end, 0 else; loops are cut at
+               // their thinnest edge, which is kept as a comment
+  kVtp,        // .vtp: a polyline a branch, from the root outward, with VMTK's arrays (src/io/write_vtp.h)
   kGraphml,    // .graphml
   kPolylines,  // .cgal, .polylines.txt: `n x1 y1 z1 ...` a branch
 };
@@ -27,14 +29,16 @@ void refuse_not_finite(const CurveSkeleton& skeleton);
 
 // The bytes of a file, each number in the shortest form that reads back exactly (17 significant digits at
 // most). `report` is the text of a JSON object that JSON files carry as "report"; empty: none. Throws
-// UsageError if it is not JSON, NoSkeletonError as refuse_not_finite does.
+// UsageError if it is not JSON, NoSkeletonError as refuse_not_finite does. `root`: where the trees of SWC and
+// the lines of VTP begin.
 std::string format_skeleton(const CurveSkeleton& skeleton, SkeletonFormat format,
-                            const std::string& report = "");
+                            const std::string& report = "", const RootChoice& root = {});
 
 // What the format cannot hold, a sentence each; empty for most.
 std::vector<std::string> losses_of_format(const CurveSkeleton& skeleton, SkeletonFormat format);
 
 // format_skeleton for the path's extension, written as write_file_atomically does.
-void write_skeleton(const std::string& path, const CurveSkeleton& skeleton, const std::string& report = "");
+void write_skeleton(const std::string& path, const CurveSkeleton& skeleton, const std::string& report = "",
+                    const RootChoice& root = {});
 
 }  // namespace mspskel
