@@ -1,0 +1,41 @@
+"""The docs: the notebook runs, and the names in the tables exist."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+import mspskel
+
+DOCS = Path(__file__).resolve().parents[2] / "docs"
+
+
+def test_the_notebook_runs():
+    nbformat, nbclient = pytest.importorskip("nbformat"), pytest.importorskip("nbclient")
+    for needed in ("ipykernel", "matplotlib", "pandas"):
+        pytest.importorskip(needed)
+    notebook = nbformat.read(DOCS / "python.ipynb", as_version=4)
+    nbclient.NotebookClient(notebook, timeout=120, kernel_name="python3").execute()
+    shown = [o.data for cell in notebook.cells if cell.cell_type == "code" for o in cell.outputs if "data" in o]
+    assert any("<iframe" in data.get("text/html", "") for data in shown)
+    assert "'proved', 1, 0" in str(shown)
+
+
+def test_names_in_the_tables_exist(animal):
+    text = (DOCS / "python.md").read_text()
+    rows = re.findall(r"^\| (?:skeletor|osteoid.*|MeshParty|mspskel) \| (`.*?`)", text, re.M)
+    names = [name for row in rows for name in re.findall(r"[a-z_]+", row.strip("`"))]
+    assert len(names) > 50
+    missing = [name for name in names if not hasattr(mspskel.Skeleton, name) and not hasattr(animal, name)]
+    assert set(missing) <= {"path", "name"}
+
+
+def test_the_page_has_the_options_of_the_batch():
+    from mspskel.batch.command import parser
+
+    text = (DOCS / "python.md").read_text()
+    known = {option for action in parser()._actions for option in action.option_strings}
+    block = text[text.index("## Batches") :]
+    used = set(re.findall(r"mspskel batch .*", block))
+    for line in used:
+        assert set(re.findall(r" (--[a-z-]+)", line)) <= known | {"--smallest"}
