@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <optional>
 
 #include "cancellation.h"
 #include "checked_extraction.h"
@@ -16,7 +17,9 @@
 #include "mspskel/base/stopwatch.h"
 #include "mspskel/io/atomic_file.h"
 #include "mspskel/io/read_mesh.h"
+#include "mspskel/io/write_segments.h"
 #include "mspskel/io/write_skeleton.h"
+#include "mspskel/render/render.h"
 #include "page_scene.h"
 #include "report.h"
 #include "stage_files.h"
@@ -59,6 +62,8 @@ void check_outputs(const ExtractSettings& settings) {
     written.push_back({output, "an output"});
   }
   written.push_back({settings.report, "the report"});
+  if (!settings.segments.empty()) segment_format_of(settings.segments);
+  written.push_back({settings.segments, "the file of the parts"});
   written.push_back({settings.run.repair.write_mesh, "the mended mesh"});
   if (!settings.stages.empty()) {
     written.push_back({settings.stages, "the folder of the stages"});
@@ -68,6 +73,7 @@ void check_outputs(const ExtractSettings& settings) {
   refuse_shared_files({{settings.input, "the mesh"}}, written);
   for (const std::string& output : settings.outputs) check_writable(output);
   if (!settings.report.empty()) check_writable(settings.report);
+  if (!settings.segments.empty()) check_writable(settings.segments);
   if (!settings.run.repair.write_mesh.empty()) check_writable(settings.run.repair.write_mesh);
   if (!settings.stages.empty()) check_folder_writable(settings.stages);
 }
@@ -96,7 +102,18 @@ struct Extraction {
   CheckedExtraction made;
   bool reported = false;  // as JSON, somewhere
   Json facts;             // if so
+  std::optional<Segmentation> segmentation;
 };
+
+void segment(const ExtractSettings& settings, Extraction& extraction) {
+  const Stopwatch segmenting;
+  ExtractResult& result = extraction.made.result;
+  extraction.segmentation = segment_surface(result.surface, result.skeleton, settings.segmentation);
+  result.seconds.emplace_back("parts", segmenting.seconds());
+  if (extraction.made.input.mended)
+    result.warnings.push_back(settings.segments +
+                              ": parts are those of the mended surface's faces; --write-mesh writes it");
+}
 
 Extraction extract_and_check(const ExtractSettings& settings, const Cancellation& cancellation,
                              ProgramSeconds& seconds) {
@@ -110,6 +127,7 @@ Extraction extract_and_check(const ExtractSettings& settings, const Cancellation
   extraction.made = extract_from(std::move(input), settings.run.extract);
   add_losses(settings, extraction.made.result);
   extraction.reported = !settings.report.empty() || settings.verbose || writes_report(settings);
+  if (!settings.segments.empty()) segment(settings, extraction);
   certify(extraction.made, extraction.reported ? CertificateDepth::kFull : CertificateDepth::kVerdict);
   if (extraction.reported) extraction.facts = facts_of(settings.input, extraction.made);
   return extraction;
@@ -127,6 +145,9 @@ void write_files(const ExtractSettings& settings, const Extraction& extraction, 
       write_skeleton(output, skeleton, extraction.reported ? report_text(extraction.facts) : "",
                      settings.root.resolve(made.input.repair.openings));
   }
+  if (extraction.segmentation)
+    write_segments(settings.segments, to_polygon_soup(made.result.surface),
+                   extraction.segmentation->part_of_face);
   if (!settings.stages.empty()) write_stage_files(settings.stages, made.result);
   seconds.write = writing.seconds();
   seconds.total = total.seconds();

@@ -25,6 +25,14 @@ Exit status: 0 done, 1 usage, 2 cannot read, 3 the mesh is not usable, 4 cannot 
 6 time limit or interrupted.
 )";
 
+void add_segment_options(CommandLine& line, ExtractSettings& settings) {
+  line.group("Parts");
+  line.text("--segments", settings.segments, "FILE",
+            "the parts of the surface: .seg has the number of each face's part, .ply the coloured surface");
+  line.number("--parts", settings.segmentation.parts.count, {0, 1e9},
+              "how many parts, as far as the skeleton has places to cut; 0: as many as the shape asks for");
+}
+
 }  // namespace
 
 bool parse_extract_settings(const std::vector<std::string>& arguments, ExtractSettings& settings) {
@@ -49,12 +57,15 @@ bool parse_extract_settings(const std::vector<std::string>& arguments, ExtractSe
   line.text("--write-mesh", settings.run.repair.write_mesh, "FILE",
             "the surface that the skeleton belongs to (.off .obj .ply)");
   table.add_stages(line);
+  add_segment_options(line, settings);
   if (!line.parse(arguments)) return false;
   if (version) {
     std::cout << version_text();
     return false;
   }
   if (settings.input.empty()) throw UsageError("which mesh? usage: mspskel IN [OUT...] [options]");
+  if (line.given("--parts") && settings.segments.empty())
+    throw UsageError("--parts says how many parts --segments FILE is to have, which is missing");
   table.resolve(line);
   settings.values = line.values();
   if (settings.root.text.rfind("open:", 0) != 0) settings.root.resolve({});

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "command_line.h"
+#include "mspskel/segment/segment_surface.h"
 #include "root_option.h"
 #include "run_options.h"
 #include "terminal.h"
@@ -17,6 +18,8 @@ struct ExtractSettings {
   std::string report;  // empty: none
   std::string stages;  // folder; empty: none
   RootOption root;
+  std::string segments;  // file of the parts; empty: none
+  SegmentOptions segmentation;
   bool keep_failed = false;
   bool quiet = false;
   bool verbose = false;

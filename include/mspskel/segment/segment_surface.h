@@ -1,0 +1,35 @@
+// The parts of a surface by its skeleton: the body, its limbs, their pieces.
+#pragma once
+
+#include <vector>
+
+#include "mspskel/graph/curve_skeleton.h"
+#include "mspskel/mesh/surface_snapshot.h"
+#include "mspskel/segment/find_parts.h"
+#include "mspskel/segment/smooth_borders.h"
+
+namespace mspskel {
+
+struct SegmentOptions {
+  PartOptions parts;
+  BorderOptions borders;
+};
+
+struct Segmentation {
+  std::vector<Index> part_of_face;  // 0 to count - 1, each on some face
+  std::vector<Index> part_of_node;  // of the skeleton; kNone where the part has no face
+  Index count = 0;
+};
+
+// Where the vertices of different nodes meet: per triangle with two of them the line between the middles of
+// its edges. Ascending by nodes. O(faces log faces).
+std::vector<NodeContact> node_contacts(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton);
+
+// find_parts on the skeleton, its parts carried to the faces by the surface map, then smooth_borders and
+// connect_parts. Every part is connected across edges, and parts are numbered from the largest area to the
+// smallest. Throws UsageError for options out of range or a skeleton whose map does not fit the surface.
+// Cost: O(parts * nodes^2) and a maximum flow about each border.
+Segmentation segment_surface(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton,
+                             const SegmentOptions& options = {});
+
+}  // namespace mspskel

@@ -1,0 +1,48 @@
+#include "cross_sections.h"
+
+#include <algorithm>
+#include <functional>
+#include <queue>
+#include <utility>
+
+namespace mspskel::detail {
+
+std::vector<double> cross_sections(const CurveSkeleton& skeleton,
+                                   const std::vector<std::vector<Index>>& neighbours) {
+  const Index count = static_cast<Index>(skeleton.nodes.size());
+  std::vector<double> raw(count), weight(count), smooth(count);
+  for (Index n = 0; n < count; ++n) {
+    const SkeletonNode& node = skeleton.nodes[n];
+    raw[n] = node.perimeter > 0 ? node.perimeter / (2 * kPi) : node.radius;
+    weight[n] = node.perimeter > 0 ? node.area : 0.0;
+  }
+  std::vector<char> done(count, 0);
+  std::vector<Index> visited;
+  using Item = std::pair<double, Index>;
+  for (Index from = 0; from < count; ++from) {
+    const double width = skeleton.nodes[from].radius;
+    double sum = 0, total = 0;
+    std::priority_queue<Item, std::vector<Item>, std::greater<Item>> queue;
+    queue.push({0.0, from});
+    visited.clear();
+    while (!queue.empty()) {
+      const auto [distance, n] = queue.top();
+      queue.pop();
+      if (done[n]) continue;
+      done[n] = 1;
+      visited.push_back(n);
+      const double share = weight[n] * (width > 0 ? 1 - distance / width : 1.0);
+      sum += share * raw[n];
+      total += share;
+      for (const Index k : neighbours[n]) {
+        const double there = distance + (skeleton.nodes[n].position - skeleton.nodes[k].position).norm();
+        if (!done[k] && there < width) queue.push({there, k});
+      }
+    }
+    for (const Index n : visited) done[n] = 0;
+    smooth[from] = total > 0 ? sum / total : raw[from];
+  }
+  return smooth;
+}
+
+}  // namespace mspskel::detail

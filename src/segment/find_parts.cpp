@@ -1,0 +1,256 @@
+#include "mspskel/segment/find_parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <tuple>
+
+#include "cross_sections.h"
+#include "mspskel/base/error.h"
+#include "part_tree.h"
+
+namespace mspskel {
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+// A border along the edges of a mesh is longer than the straight one: 4 / pi times on a square grid, on
+// average over its directions.
+constexpr double kStraightened = kPi / 4;
+
+using Edge = std::array<Index, 2>;
+
+// One edge, or two that cut a stretch out of a cycle. `edges[0][1]` is in what is cut off.
+struct Cut {
+  double score = kInfinite;  // less is cleaner
+  std::vector<Edge> edges;
+
+  bool has(Index a, Index b) const {
+    return std::any_of(edges.begin(), edges.end(), [&](const Edge& e) {
+      return e == Edge{a, b} || e == Edge{b, a};
+    });
+  }
+};
+
+struct CrossSection {
+  double radius = 0, distance = 1;
+};
+
+class PartFinder {
+ public:
+  PartFinder(const CurveSkeleton& skeleton, const std::vector<NodeContact>& contacts,
+             const PartOptions& options)
+      : skeleton_(skeleton),
+        contacts_(contacts),
+        options_(options),
+        next_(adjacency(skeleton)),
+        size_(detail::cross_sections(skeleton, next_)),
+        part_(skeleton.nodes.size(), kNone),
+        seen_(skeleton.nodes.size(), 0) {
+    for (const SkeletonNode& node : skeleton.nodes) total_ += node.area;
+  }
+
+  SkeletonParts run() {
+    number_pieces();
+    split_while_clean();
+    if (options_.count > static_cast<Index>(cut_.size())) {
+      // Whatever is left to cut, the cleanest first.
+      options_.contrast = kInfinite;
+      options_.slenderness = 0;
+      for (Index p = 0; p < static_cast<Index>(cut_.size()); ++p) cut_[p] = cleanest_cut(root_[p]);
+      split_while_clean();
+    }
+    return {part_, static_cast<Index>(cut_.size())};
+  }
+
+ private:
+  double length(Index a, Index b) const {
+    return (skeleton_.nodes[a].position - skeleton_.nodes[b].position).norm();
+  }
+
+  void number_pieces() {
+    for (Index n = 0; n < static_cast<Index>(part_.size()); ++n)
+      if (part_[n] == kNone) add_part(n, kNone, {});
+    for (const Index root : root_) cut_.push_back(cleanest_cut(root));
+  }
+  // What hangs together with `root` becomes a part of its own.
+  void add_part(Index root, Index from, const Cut& cut) {
+    const Index to = static_cast<Index>(root_.size());
+    root_.push_back(root);
+    std::vector<Index> stack{root};
+    part_[root] = to;
+    while (!stack.empty()) {
+      const Index n = stack.back();
+      stack.pop_back();
+      for (const Index k : next_[n])
+        if (part_[k] == from && !cut.has(n, k)) {
+          part_[k] = to;
+          stack.push_back(k);
+        }
+    }
+  }
+  void split_while_clean() {
+    for (;;) {
+      const auto best = std::min_element(cut_.begin(), cut_.end(),
+                                         [](const Cut& a, const Cut& b) { return a.score < b.score; });
+      if (best == cut_.end() || best->score == kInfinite) return;
+      if (options_.count > 0 && static_cast<Index>(cut_.size()) >= options_.count) return;
+      const Index p = static_cast<Index>(best - cut_.begin());
+      const Cut cut = *best;
+      root_[p] = cut.edges[0][0];
+      add_part(cut.edges[0][1], p, cut);
+      cut_[p] = cleanest_cut(root_[p]);
+      cut_.push_back(cleanest_cut(root_.back()));
+    }
+  }
+
+  // The part's cross-sections on either side of the edge a-b, by distance along the skeleton.
+  std::array<std::vector<CrossSection>, 2> sides_of(Index a, Index b, double limit) {
+    std::array<std::vector<CrossSection>, 2> sides;
+    using Item = std::tuple<double, Index, int>;
+    std::priority_queue<Item, std::vector<Item>, std::greater<Item>> queue;
+    queue.push({0.5 * length(a, b), a, 0});
+    queue.push({0.5 * length(a, b), b, 1});
+    std::vector<Index> visited;
+    while (!queue.empty()) {
+      const auto [distance, n, side] = queue.top();
+      queue.pop();
+      if (seen_[n]) continue;
+      seen_[n] = 1;
+      visited.push_back(n);
+      sides[side].push_back({size_[n], distance});
+      for (const Index k : next_[n]) {
+        const double there = distance + length(n, k);
+        if (part_[k] == part_[n] && !seen_[k] && there <= limit) queue.push({there, k, side});
+      }
+    }
+    for (const Index n : visited) seen_[n] = 0;
+    return sides;
+  }
+  // The widest straight taper over the edge a-b, from the largest cross-section near it on one side to any on
+  // the other side: its radius at the edge.
+  double tapered(Index a, Index b, double widest) {
+    const auto sides = sides_of(a, b, options_.reach * widest);
+    double best = 0;
+    for (int side = 0; side < 2; ++side) {
+      CrossSection y;
+      for (const CrossSection& c : sides[side])
+        if (c.distance <= options_.reach * c.radius && c.radius > y.radius) y = c;
+      if (y.radius <= 0) continue;
+      for (const CrossSection& z : sides[1 - side])
+        if (z.distance <= options_.reach * y.radius && y.distance + z.distance > 0)
+          best = std::max(best, (y.radius * z.distance + z.radius * y.distance) / (y.distance + z.distance));
+    }
+    return best;
+  }
+
+  // Keeps the cut if it is clean enough and cleaner than the best. `radius` is the cross-section's,
+  // `contrast` its share of the taper's, `area` what is cut off from `whole`.
+  void consider(Cut& best, double radius, double contrast, double area, double whole,
+                std::vector<Edge> edges) const {
+    const double smaller = std::min(area, whole - area);
+    if (contrast > options_.contrast || smaller < options_.smallest * total_ || smaller <= 0) return;
+    const double perimeter = 2 * kPi * radius;
+    if (smaller < options_.slenderness * perimeter * perimeter) return;
+    const double score = contrast * perimeter / std::sqrt(smaller);
+    if (score < best.score) best = {score, std::move(edges)};
+  }
+
+  Cut cleanest_cut(Index root) {
+    const detail::PartTree tree = detail::make_part_tree(skeleton_, next_, contacts_, part_, root);
+    double widest = 0;
+    for (const Index n : tree.order) widest = std::max(widest, size_[n]);
+    Cut best;
+    for (const Index n : tree.order) {
+      if (!tree.is_bridge(n)) continue;
+      const Index m = tree.parent[n];
+      const double radius = std::max(0.5 * (size_[m] + size_[n]), kStraightened * tree.border[n] / (2 * kPi));
+      consider(best, radius, radius / tapered(m, n, widest), tree.area[n], tree.area[root], {{m, n}});
+    }
+    for (const std::vector<Index>& chain : chains_on_cycles(tree))
+      cut_stretch(best, chain, widest, tree.area[root]);
+    return best;
+  }
+
+  // Chains of the part's edges that are no bridges; inner nodes have two neighbours in the part.
+  std::vector<std::vector<Index>> chains_on_cycles(const detail::PartTree& tree) {
+    const auto on_cycle = [&](Index a, Index b) {
+      if (part_[a] != part_[b]) return false;
+      return !(tree.parent[a] == b && tree.is_bridge(a)) && !(tree.parent[b] == a && tree.is_bridge(b));
+    };
+    const auto is_inner = [&](Index n) {
+      Index degree = 0;
+      for (const Index k : next_[n]) degree += part_[k] == part_[n] ? 1 : 0;
+      return degree == 2 &&
+             std::any_of(next_[n].begin(), next_[n].end(), [&](Index k) { return on_cycle(n, k); });
+    };
+    std::vector<std::vector<Index>> chains;
+    std::vector<char> walked(part_.size(), 0);
+    for (const Index start : tree.order) {
+      if (is_inner(start)) continue;
+      for (const Index first : next_[start]) {
+        if (!on_cycle(start, first) || !is_inner(first) || walked[first]) continue;
+        std::vector<Index> chain{start, first};
+        while (is_inner(chain.back())) {
+          const Index here = chain.back(), came = chain[chain.size() - 2];
+          walked[here] = 1;
+          for (const Index k : next_[here])
+            if (k != came && part_[k] == part_[here]) chain.push_back(k);
+        }
+        chains.push_back(std::move(chain));
+      }
+    }
+    return chains;
+  }
+  void cut_stretch(Cut& best, const std::vector<Index>& chain, double widest, double whole) {
+    const std::size_t edges = chain.size() - 1;
+    std::vector<double> radius(edges), contrast(edges);
+    for (std::size_t i = 0; i < edges; ++i) {
+      radius[i] = 0.5 * (size_[chain[i]] + size_[chain[i + 1]]);
+      contrast[i] = radius[i] / tapered(chain[i], chain[i + 1], widest);
+    }
+    for (std::size_t i = 0; i + 1 < edges; ++i) {
+      double area = 0;
+      for (std::size_t j = i + 1; j < edges; ++j) {
+        area += skeleton_.nodes[chain[j]].area;
+        if (std::max(contrast[i], contrast[j]) <= options_.contrast)
+          consider(best, std::max(radius[i], radius[j]), std::max(contrast[i], contrast[j]), area, whole,
+                   {{chain[i], chain[i + 1]}, {chain[j], chain[j + 1]}});
+      }
+    }
+  }
+
+  const CurveSkeleton& skeleton_;
+  const std::vector<NodeContact>& contacts_;
+  PartOptions options_;
+  std::vector<std::vector<Index>> next_;
+  std::vector<double> size_;  // per node: radius of a circle with the cross-section's perimeter
+  std::vector<Index> part_;
+  std::vector<char> seen_;
+  std::vector<Index> root_;  // per part: one of its nodes
+  std::vector<Cut> cut_;     // per part: its cleanest
+  double total_ = 0;
+};
+
+void require(bool in_range, const char* message) {
+  if (!in_range) throw UsageError(message);
+}
+
+}  // namespace
+
+void validate(const PartOptions& options) {
+  require(options.contrast > 0 && options.contrast <= 1, "parts: contrast must be above 0 and at most 1");
+  require(options.reach >= 0 && options.reach <= 100, "parts: reach must be from 0 to 100");
+  require(options.slenderness >= 0 && options.slenderness <= 100, "parts: slenderness must be from 0 to 100");
+  require(options.smallest >= 0 && options.smallest <= 1, "parts: smallest must be from 0 to 1");
+  require(options.count >= 0, "parts: count must not be negative");
+}
+
+SkeletonParts find_parts(const CurveSkeleton& skeleton, const std::vector<NodeContact>& contacts,
+                         const PartOptions& options) {
+  validate(options);
+  return PartFinder(skeleton, contacts, options).run();
+}
+
+}  // namespace mspskel

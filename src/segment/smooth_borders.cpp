@@ -1,0 +1,203 @@
+#include "mspskel/segment/smooth_borders.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <queue>
+#include <set>
+#include <utility>
+
+#include "max_flow.h"
+#include "mspskel/base/error.h"
+
+namespace mspskel {
+namespace {
+
+double edge_length(const SurfaceSnapshot& s, Index h) {
+  return (s.position[s.target(h)] - s.position[s.origin[h]]).norm();
+}
+
+class BorderSmoother {
+ public:
+  BorderSmoother(const SurfaceSnapshot& surface, std::vector<Index>& part_of_face,
+                 const BorderOptions& options)
+      : surface_(surface), part_(part_of_face), options_(options), place_(part_of_face.size(), kNone) {
+    for (Index f = 0; f < surface.face_count(); ++f) {
+      const Index h = 3 * f;
+      middle_.push_back((surface.position[surface.origin[h]] + surface.position[surface.origin[h + 1]] +
+                         surface.position[surface.origin[h + 2]]) /
+                        3);
+    }
+  }
+
+  void run() {
+    std::set<std::pair<Index, Index>> pairs;
+    for (Index h = 0; h < surface_.halfedge_count(); ++h) {
+      const Index a = part_[h / 3], b = part_[surface_.twin[h] / 3];
+      if (a < b) pairs.insert({a, b});
+    }
+    for (const auto& [a, b] : pairs) smooth(a, b);
+  }
+
+ private:
+  bool is_border(Index h, Index a, Index b) const {
+    return part_[h / 3] == a && part_[surface_.twin[h] / 3] == b;
+  }
+  double cost(Index h) const {
+    const Vector3 n = surface_.face_normal_times_twice_area(h / 3);
+    const Vector3 m = surface_.face_normal_times_twice_area(surface_.twin[h] / 3);
+    const Vector3& across = surface_.position[surface_.apex(surface_.twin[h])];
+    const bool concave = n.dot(across - surface_.position[surface_.origin[h]]) > 0;
+    const double angle = concave ? std::atan2(n.cross(m).norm(), n.dot(m)) : 0.0;
+    return edge_length(surface_, h) / (1 + options_.crease * angle);
+  }
+
+  // Faces of both parts within `width` of their border, along the surface.
+  std::vector<Index> band(Index a, Index b, const std::vector<Index>& border, double width) {
+    using Item = std::pair<double, Index>;
+    std::priority_queue<Item, std::vector<Item>, std::greater<Item>> queue;
+    for (const Index h : border) {
+      queue.push({0.0, h / 3});
+      queue.push({0.0, surface_.twin[h] / 3});
+    }
+    std::vector<Index> faces;
+    while (!queue.empty()) {
+      const auto [distance, f] = queue.top();
+      queue.pop();
+      if (place_[f] != kNone) continue;
+      place_[f] = static_cast<Index>(faces.size());
+      faces.push_back(f);
+      for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+        const Index g = surface_.twin[h] / 3;
+        const double there = distance + (middle_[f] - middle_[g]).norm();
+        if (place_[g] == kNone && (part_[g] == a || part_[g] == b) && there <= width) queue.push({there, g});
+      }
+    }
+    return faces;
+  }
+
+  void smooth(Index a, Index b) {
+    std::vector<Index> border;
+    double length = 0;
+    for (Index h = 0; h < surface_.halfedge_count(); ++h)
+      if (is_border(h, a, b)) {
+        border.push_back(h);
+        length += edge_length(surface_, h);
+      }
+    const std::vector<Index> faces = band(a, b, border, options_.width * length / (2 * kPi));
+    const Index source = static_cast<Index>(faces.size()), sink = source + 1;
+    detail::MaxFlow flow(sink + 1);
+    bool from_a = false, from_b = false;
+    for (const Index f : faces)
+      for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+        const Index g = surface_.twin[h] / 3;
+        if (place_[g] != kNone) {
+          if (f < g) flow.add_edge(place_[f], place_[g], cost(h));
+        } else if (part_[g] == a) {
+          flow.add_edge(source, place_[f], cost(h));
+          from_a = true;
+        } else if (part_[g] == b) {
+          flow.add_edge(place_[f], sink, cost(h));
+          from_b = true;
+        }
+      }
+    if (from_a && from_b) {
+      const std::vector<char> side = flow.cut(source, sink);
+      for (std::size_t i = 0; i < faces.size(); ++i) part_[faces[i]] = side[i] ? a : b;
+    }
+    for (const Index f : faces) place_[f] = kNone;
+  }
+
+  const SurfaceSnapshot& surface_;
+  std::vector<Index>& part_;
+  const BorderOptions& options_;
+  std::vector<Index> place_;  // per face: in the present band
+  std::vector<Vector3> middle_;
+};
+
+// Maximal sets of faces of one part that hang together across edges.
+struct Pieces {
+  std::vector<Index> of_face;
+  std::vector<double> area;  // per piece
+  std::vector<Index> part;   // per piece
+};
+
+Pieces find_pieces(const SurfaceSnapshot& surface, const std::vector<Index>& part_of_face) {
+  Pieces pieces;
+  pieces.of_face.assign(part_of_face.size(), kNone);
+  std::vector<Index> stack;
+  for (Index start = 0; start < surface.face_count(); ++start) {
+    if (pieces.of_face[start] != kNone) continue;
+    const Index piece = static_cast<Index>(pieces.area.size());
+    pieces.area.push_back(0.0);
+    pieces.part.push_back(part_of_face[start]);
+    pieces.of_face[start] = piece;
+    stack.assign(1, start);
+    while (!stack.empty()) {
+      const Index f = stack.back();
+      stack.pop_back();
+      pieces.area.back() += surface.face_normal_times_twice_area(f).norm();
+      for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+        const Index g = surface.twin[h] / 3;
+        if (pieces.of_face[g] != kNone || part_of_face[g] != part_of_face[f]) continue;
+        pieces.of_face[g] = piece;
+        stack.push_back(g);
+      }
+    }
+  }
+  return pieces;
+}
+
+// Per piece: whether it is the largest of its part.
+std::vector<char> largest_pieces(const Pieces& pieces) {
+  std::map<Index, Index> largest;
+  for (Index i = 0; i < static_cast<Index>(pieces.area.size()); ++i) {
+    const auto found = largest.emplace(pieces.part[i], i).first;
+    if (pieces.area[i] > pieces.area[found->second]) found->second = i;
+  }
+  std::vector<char> is_largest(pieces.area.size(), 0);
+  for (const auto& entry : largest) is_largest[entry.second] = 1;
+  return is_largest;
+}
+
+}  // namespace
+
+void validate(const BorderOptions& options) {
+  if (!(options.width >= 0 && options.width <= 10)) throw UsageError("borders: width must be from 0 to 10");
+  if (!(options.crease >= 0 && options.crease <= 100))
+    throw UsageError("borders: crease must be from 0 to 100");
+}
+
+void smooth_borders(const SurfaceSnapshot& surface, std::vector<Index>& part_of_face,
+                    const BorderOptions& options) {
+  validate(options);
+  if (options.width > 0) BorderSmoother(surface, part_of_face, options).run();
+}
+
+void connect_parts(const SurfaceSnapshot& surface, std::vector<Index>& part_of_face) {
+  for (bool moved = true; moved;) {
+    moved = false;
+    const Pieces pieces = find_pieces(surface, part_of_face);
+    const std::vector<char> stays = largest_pieces(pieces);
+    // Only pieces that stay take others in, so that each round settles all that touch one.
+    std::vector<std::map<Index, double>> shared(pieces.area.size());
+    for (Index h = 0; h < surface.halfedge_count(); ++h) {
+      const Index i = pieces.of_face[h / 3], j = pieces.of_face[surface.twin[h] / 3];
+      if (i != j && !stays[i] && stays[j]) shared[i][pieces.part[j]] += edge_length(surface, h);
+    }
+    std::vector<Index> part = pieces.part;
+    for (std::size_t i = 0; i < shared.size(); ++i) {
+      double longest = -1;
+      for (const auto& [p, length] : shared[i])
+        if (length > longest) {
+          longest = length;
+          part[i] = p;
+          moved = true;
+        }
+    }
+    for (Index f = 0; f < surface.face_count(); ++f) part_of_face[f] = part[pieces.of_face[f]];
+  }
+}
+
+}  // namespace mspskel
