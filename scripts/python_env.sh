@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 done=build-python/complete
-wanted=$(sha1sum "$0")
+wanted=$(sha1sum scripts/python_env.sh)
 [[ -f $done && $(<"$done") == "$wanted" ]] && exit 0
 python3 -m venv build-python
 pip=(build-python/bin/pip --disable-pip-version-check -q install --no-compile)
