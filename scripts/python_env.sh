@@ -4,10 +4,10 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 done=build-python/complete
-wanted=$(sha1sum "$0")
+wanted=$(sha1sum scripts/python_env.sh)
 [[ -f $done && $(<"$done") == "$wanted" ]] && exit 0
 python3 -m venv build-python
-pip=(build-python/bin/pip --disable-pip-version-check -q install)
+pip=(build-python/bin/pip --disable-pip-version-check -q install --no-compile)
 "${pip[@]}" nanobind numpy pytest networkx pandas scipy trimesh 'dask[distributed]' pyarrow nbclient ipykernel matplotlib ||
   { echo "Python tests are left out: their packages cannot be installed" >&2; exit 1; }
 for package in skeletor navis osteoid meshio; do

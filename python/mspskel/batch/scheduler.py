@@ -61,7 +61,9 @@ def _lost(job: Job, future: Any, seconds: float) -> dict[str, Any]:
     error = future.exception() if future.status == "error" else None
     if error is None:
         raise ConnectionError("the scheduler is gone; what is done is kept, and the same call goes on from there")
-    status = "worker died" if isinstance(error, KilledWorker) else "failed"
-    row = row_of(job, {"status": status, "error": type(error).__name__, "message": str(error)}, seconds)
+    status, message = "failed", str(error)
+    if isinstance(error, KilledWorker):
+        status, message = "worker died", f"every worker that it was given to died, the last one at {error.last_worker.address}"
+    row = row_of(job, {"status": status, "error": type(error).__name__, "message": message}, seconds)
     write_record(job, row)
     return row
