@@ -1,13 +1,14 @@
 #include "name_joints.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 namespace mspskel::detail {
 namespace {
 
 // Twins may be so far from each other's mirror image, as a share of the model's extent.
-constexpr double kMirrorError = 0.06;
+constexpr double kMirrorError = 0.1;
 
 struct MirrorPlane {
   Vector3 point, normal;
@@ -76,9 +77,7 @@ class JointNames {
         const Vector3 across = tip(chains_[b]) - tip(chains_[a]);
         if (!chains_[a].is_limb || !chains_[b].is_limb || across.norm() < 2 * error_) continue;
         const MirrorPlane plane{0.5 * (tip(chains_[a]) + tip(chains_[b])), across.normalized()};
-        if ((joints_[0].position - plane.point).dot(plane.normal) * 1.0 > error_ ||
-            (joints_[0].position - plane.point).dot(plane.normal) < -error_)
-          continue;
+        if (std::abs((joints_[0].position - plane.point).dot(plane.normal)) > error_) continue;
         Index matched = 0;
         for (Index c = 0; c < static_cast<Index>(chains_.size()); ++c)
           matched += chains_[c].is_limb && image_of(c, plane) != kNone ? 1 : 0;
