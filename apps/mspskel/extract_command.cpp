@@ -17,6 +17,8 @@
 #include "mspskel/base/stopwatch.h"
 #include "mspskel/io/atomic_file.h"
 #include "mspskel/io/read_mesh.h"
+#include "mspskel/io/write_glb.h"
+#include "mspskel/io/write_mesh.h"
 #include "mspskel/io/write_segments.h"
 #include "mspskel/io/write_skeleton.h"
 #include "mspskel/render/render.h"
@@ -54,16 +56,21 @@ void check_folder_writable(const fs::path& path) {
   check_folder(path, there);
 }
 
+bool is_skeleton_file(const std::string& path) {
+  return !is_page(path) && !is_glb(path) && !is_rig_text(path);
+}
+
 // What is wrong with the places of the outputs shows before the work, not after it.
 void check_outputs(const ExtractSettings& settings) {
   std::vector<FileRole> written;
   for (const std::string& output : settings.outputs) {
-    if (!is_page(output)) skeleton_format_of(output);
+    if (is_skeleton_file(output)) skeleton_format_of(output);
     written.push_back({output, "an output"});
   }
   written.push_back({settings.report, "the report"});
   if (!settings.segments.empty()) segment_format_of(settings.segments);
   written.push_back({settings.segments, "the file of the parts"});
+  written.push_back({settings.bent, "the bent surface"});
   written.push_back({settings.run.repair.write_mesh, "the mended mesh"});
   if (!settings.stages.empty()) {
     written.push_back({settings.stages, "the folder of the stages"});
@@ -74,6 +81,7 @@ void check_outputs(const ExtractSettings& settings) {
   for (const std::string& output : settings.outputs) check_writable(output);
   if (!settings.report.empty()) check_writable(settings.report);
   if (!settings.segments.empty()) check_writable(settings.segments);
+  if (!settings.bent.empty()) check_writable(settings.bent);
   if (!settings.run.repair.write_mesh.empty()) check_writable(settings.run.repair.write_mesh);
   if (!settings.stages.empty()) check_folder_writable(settings.stages);
 }
@@ -81,13 +89,14 @@ void check_outputs(const ExtractSettings& settings) {
 // Some outputs hold the report.
 bool writes_report(const ExtractSettings& settings) {
   return std::any_of(settings.outputs.begin(), settings.outputs.end(), [](const std::string& output) {
-    return is_page(output) || skeleton_format_of(output) == SkeletonFormat::kJson;
+    return is_page(output) ||
+           (is_skeleton_file(output) && skeleton_format_of(output) == SkeletonFormat::kJson);
   });
 }
 
 void add_losses(const ExtractSettings& settings, ExtractResult& result) {
   for (const std::string& output : settings.outputs) {
-    if (is_page(output)) continue;
+    if (!is_skeleton_file(output)) continue;
     for (const std::string& loss : losses_of_format(result.skeleton, skeleton_format_of(output)))
       result.warnings.push_back(output + ": " + loss);
   }
@@ -103,6 +112,8 @@ struct Extraction {
   bool reported = false;  // as JSON, somewhere
   Json facts;             // if so
   std::optional<Segmentation> segmentation;
+  std::optional<Rig> rig;
+  std::vector<JointTurn> pose;  // of the rig
 };
 
 void segment(const ExtractSettings& settings, Extraction& extraction) {
@@ -113,6 +124,23 @@ void segment(const ExtractSettings& settings, Extraction& extraction) {
   if (extraction.made.input.mended)
     result.warnings.push_back(settings.segments +
                               ": parts are those of the mended surface's faces; --write-mesh writes it");
+}
+
+bool needs_rig(const ExtractSettings& settings) {
+  return settings.rig || !settings.bent.empty() ||
+         std::any_of(settings.outputs.begin(), settings.outputs.end(), is_rig_text);
+}
+
+void add_rig(const ExtractSettings& settings, Extraction& extraction) {
+  const Stopwatch rigging;
+  ExtractResult& result = extraction.made.result;
+  extraction.rig = make_rig(result.surface, result.skeleton, settings.rigging);
+  result.seconds.emplace_back("rig", rigging.seconds());
+  for (const std::string& pose : settings.poses)
+    extraction.pose.push_back(parse_joint_turn(*extraction.rig, pose));
+  if (const std::size_t cut = extraction.rig->cut.size(); cut > 0)
+    result.warnings.push_back("a rig has no loops: " + std::to_string(cut) +
+                              " of the skeleton's are cut at their far ends");
 }
 
 Extraction extract_and_check(const ExtractSettings& settings, const Cancellation& cancellation,
@@ -128,9 +156,25 @@ Extraction extract_and_check(const ExtractSettings& settings, const Cancellation
   add_losses(settings, extraction.made.result);
   extraction.reported = !settings.report.empty() || settings.verbose || writes_report(settings);
   if (!settings.segments.empty()) segment(settings, extraction);
+  if (needs_rig(settings)) add_rig(settings, extraction);
   certify(extraction.made, extraction.reported ? CertificateDepth::kFull : CertificateDepth::kVerdict);
   if (extraction.reported) extraction.facts = facts_of(settings.input, extraction.made);
   return extraction;
+}
+
+void write_glb(const std::string& path, const ExtractSettings& settings, const Extraction& extraction) {
+  const ExtractResult& result = extraction.made.result;
+  const GlbScene scene{
+      settings.input == "-" ? "standard input" : fs::path(settings.input).filename().string(),
+      to_polygon_soup(result.surface), result.skeleton};
+  write_file_atomically(
+      path, settings.rig ? format_rigged_glb(scene, *extraction.rig, extraction.pose) : format_glb(scene));
+}
+
+void write_bent(const ExtractSettings& settings, const Extraction& extraction) {
+  PolygonSoup surface = to_polygon_soup(extraction.made.result.surface);
+  surface.points = bend(*extraction.rig, surface.points, extraction.pose);
+  write_mesh(settings.bent, surface);
 }
 
 void write_files(const ExtractSettings& settings, const Extraction& extraction, const Stopwatch& total,
@@ -141,6 +185,10 @@ void write_files(const ExtractSettings& settings, const Extraction& extraction, 
   for (const std::string& output : settings.outputs) {
     if (is_page(output))
       write_viewer_page(output, make_page_scene(settings.input, made.result, extraction.facts));
+    else if (is_glb(output))
+      write_glb(output, settings, extraction);
+    else if (is_rig_text(output))
+      write_file_atomically(output, format_rig_text(*extraction.rig));
     else
       write_skeleton(output, skeleton, extraction.reported ? report_text(extraction.facts) : "",
                      settings.root.resolve(made.input.repair.openings));
@@ -148,6 +196,7 @@ void write_files(const ExtractSettings& settings, const Extraction& extraction, 
   if (extraction.segmentation)
     write_segments(settings.segments, to_polygon_soup(made.result.surface),
                    extraction.segmentation->part_of_face);
+  if (!settings.bent.empty()) write_bent(settings, extraction);
   if (!settings.stages.empty()) write_stage_files(settings.stages, made.result);
   seconds.write = writing.seconds();
   seconds.total = total.seconds();

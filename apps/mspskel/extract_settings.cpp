@@ -1,10 +1,12 @@
 #include "extract_settings.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 
 #include "commands.h"
 #include "mspskel/base/error.h"
+#include "mspskel/io/write_glb.h"
 
 namespace mspskel::cli {
 namespace {
@@ -33,6 +35,29 @@ void add_segment_options(CommandLine& line, ExtractSettings& settings) {
               "how many parts, as far as the skeleton has places to cut; 0: as many as the shape asks for");
 }
 
+void add_rig_options(CommandLine& line, ExtractSettings& settings) {
+  line.group("Rig, for animation; .rig.txt files always have one");
+  line.flag("--rig", settings.rig, "OUT.glb is a skinned mesh with joints");
+  line.number("--joints", settings.rigging.joints, {0, 65535},
+              "how many joints, as far as the skeleton has nodes; 0: as many as the shape asks for");
+  line.texts("--pose", settings.poses, "JOINT=AXIS,ANGLE",
+             "turn a joint by so many degrees; the axis is x, y, z or three numbers; may be repeated");
+  line.text("--bent", settings.bent, "FILE", "the surface in the pose (.off .obj .ply)");
+}
+
+void check_shape_options(const CommandLine& line, const ExtractSettings& settings) {
+  if (line.given("--parts") && settings.segments.empty())
+    throw UsageError("--parts says how many parts --segments FILE is to have, which is missing");
+  const bool rigged = settings.rig || !settings.bent.empty() ||
+                      std::any_of(settings.outputs.begin(), settings.outputs.end(), is_rig_text);
+  for (const char* option : {"--joints", "--pose"})
+    if (line.given(option) && !rigged)
+      throw UsageError(std::string(option) +
+                       " is about a rig: add --rig and an OUT.glb, an OUT.rig.txt or --bent FILE");
+  if (settings.rig && std::none_of(settings.outputs.begin(), settings.outputs.end(), is_glb))
+    throw UsageError("--rig puts joints into a .glb file: name an OUT.glb");
+}
+
 }  // namespace
 
 bool parse_extract_settings(const std::vector<std::string>& arguments, ExtractSettings& settings) {
@@ -43,6 +68,7 @@ bool parse_extract_settings(const std::vector<std::string>& arguments, ExtractSe
   line.argument("IN", settings.input, "mesh (.off .obj .ply .stl), - for stdin");
   line.arguments("OUT", settings.outputs,
                  "skeletons, by extension: .skel .obj .ply .json .swc .vtp .graphml .cgal .polylines.txt; "
+                 ".glb is glTF for viewers, with --rig for animation; .rig.txt is RigNet's form of a rig; "
                  ".html is a page to look at; - is .skel on stdout; IN with .skel by default");
   table.add_general(line);
   line.text("--report", settings.report, "FILE", "what was done and found, as JSON; - for stdout");
@@ -58,14 +84,14 @@ bool parse_extract_settings(const std::vector<std::string>& arguments, ExtractSe
             "the surface that the skeleton belongs to (.off .obj .ply)");
   table.add_stages(line);
   add_segment_options(line, settings);
+  add_rig_options(line, settings);
   if (!line.parse(arguments)) return false;
   if (version) {
     std::cout << version_text();
     return false;
   }
   if (settings.input.empty()) throw UsageError("which mesh? usage: mspskel IN [OUT...] [options]");
-  if (line.given("--parts") && settings.segments.empty())
-    throw UsageError("--parts says how many parts --segments FILE is to have, which is missing");
+  check_shape_options(line, settings);
   table.resolve(line);
   settings.values = line.values();
   if (settings.root.text.rfind("open:", 0) != 0) settings.root.resolve({});

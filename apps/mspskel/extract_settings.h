@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "command_line.h"
+#include "mspskel/rig/make_rig.h"
 #include "mspskel/segment/segment_surface.h"
 #include "root_option.h"
 #include "run_options.h"
@@ -15,11 +16,15 @@ namespace mspskel::cli {
 struct ExtractSettings {
   std::string input;
   std::vector<std::string> outputs;
-  std::string report;  // empty: none
-  std::string stages;  // folder; empty: none
+  std::string report;    // empty: none
+  std::string stages;    // folder; empty: none
   RootOption root;
   std::string segments;  // file of the parts; empty: none
   SegmentOptions segmentation;
+  bool rig = false;  // .glb files have joints instead of lines
+  RigOptions rigging;
+  std::vector<std::string> poses;  // NAME=AXIS,ANGLE each
+  std::string bent;                // file of the surface in that pose; empty: none
   bool keep_failed = false;
   bool quiet = false;
   bool verbose = false;

@@ -154,6 +154,12 @@ void CommandLine::text(const std::string& names, std::string& target, const std:
   add(app_.add_option(names, target, help), value, [&target] { return Json(target); });
 }
 
+void CommandLine::texts(const std::string& names, std::vector<std::string>& target, const std::string& value,
+                        const std::string& help) {
+  add(app_.add_option(names, target, help)->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll),
+      value, [&target] { return Json(target); });
+}
+
 void CommandLine::toggle(const std::string& name, bool& target, const std::string& help) {
   CLI::Option* option = app_.add_flag("--" + name + ",!--no-" + name, target, help);
   option->default_str(target ? "on" : "off");

@@ -38,6 +38,9 @@ class CommandLine {
   // The options that follow are listed under this heading.
   void group(const std::string& heading) { group_ = heading; }
   void flag(const std::string& names, bool& target, const std::string& help);
+  // May be given several times, each with one value.
+  void texts(const std::string& names, std::vector<std::string>& target, const std::string& value,
+             const std::string& help);
   void text(const std::string& names, std::string& target, const std::string& value, const std::string& help);
   // --name and --no-name.
   void toggle(const std::string& name, bool& target, const std::string& help);

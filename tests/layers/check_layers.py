@@ -7,7 +7,7 @@ import pathlib
 import re
 import sys
 
-LAYERS = ["base", "mesh", "repair", "slice", "center", "collapse", "graph", "segment", "io", "samples", "render", "view"]
+LAYERS = ["base", "mesh", "repair", "slice", "center", "collapse", "graph", "segment", "rig", "io", "samples", "render", "view"]
 TOP = len(LAYERS)  # headers directly in include/mspskel, and their detail, see every folder
 
 

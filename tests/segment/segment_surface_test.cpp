@@ -58,7 +58,7 @@ double disagreement(const std::vector<Index>& a, const std::vector<Index>& b) {
 }  // namespace
 
 TEST_CASE("parts are connected, and every number up to the count is used") {
-  for (const char* name : {"quadruped", "capsule", "cup", "torus", "tree", "star"}) {
+  for (const char* name : {"quadruped", "capsule", "cup", "torus", "y-tube", "octoped"}) {
     INFO(name);
     const Shape shape = sample(name);
     const Segmentation parts = segment_surface(shape.surface, shape.skeleton);

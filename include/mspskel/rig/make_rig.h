@@ -1,0 +1,32 @@
+// A rig from a skeleton and its surface map.
+#pragma once
+
+#include "mspskel/graph/curve_skeleton.h"
+#include "mspskel/mesh/surface_snapshot.h"
+#include "mspskel/rig/rig.h"
+
+namespace mspskel {
+
+struct RigOptions {
+  // So many joints, as far as the skeleton has nodes for them; 0: what the shape asks for, at most 40 and at
+  // least three a limb's end up to 13.
+  Index joints = 0;
+  // How far a vertex on either side of a joint follows both bones, in radii at the joint; [0, 10].
+  double blend = 1.0;
+  // Rounds in which weights are averaged with those of the neighbours on the surface; [0, 1000].
+  Index smoothing = 6;
+};
+
+// Throws UsageError naming the option.
+void validate(const RigOptions& options);
+
+// Joints where arcs meet, where they leave the ball of such a place, where they bend and where they end; the
+// root is the one nearest the middle of the surface along the skeleton. Cycles are cut farthest from the
+// root; pieces of the skeleton hang on the root of the largest. A vertex follows the bone that its node is on
+// and, near a joint, the next one. Names: "root"; "body3_1" is the first joint of the third stretch between
+// junctions, "limb2_1" that of the second limb; where limbs mirror each other they end in _L and _R.
+// docs/rigging.md has pictures. Throws UsageError for options out of range, a skeleton without nodes or one
+// whose map does not fit the surface. O(nodes log nodes + joints * nodes + vertices * smoothing).
+Rig make_rig(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton, const RigOptions& options = {});
+
+}  // namespace mspskel

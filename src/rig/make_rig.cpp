@@ -1,0 +1,190 @@
+#include "mspskel/rig/make_rig.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "mspskel/base/error.h"
+#include "name_joints.h"
+#include "skeleton_tree.h"
+
+namespace mspskel {
+namespace {
+
+using detail::SkeletonTree;
+
+// Joints and weights of one node or vertex, ascending by joint.
+using Weights = std::vector<std::pair<Index, double>>;
+
+void add(Weights& weights, Index joint, double weight) {
+  const auto at = std::lower_bound(weights.begin(), weights.end(), joint,
+                                   [](const auto& entry, Index j) { return entry.first < j; });
+  if (at != weights.end() && at->first == joint)
+    at->second += weight;
+  else
+    weights.insert(at, {joint, weight});
+}
+
+void check_fit(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton) {
+  if (skeleton.nodes.empty()) throw UsageError("a rig needs a skeleton: this one has no nodes");
+  if (static_cast<Index>(skeleton.node_of_vertex.size()) != surface.vertex_count())
+    throw UsageError("the skeleton's surface map has " + std::to_string(skeleton.node_of_vertex.size()) +
+                     " entries for " + std::to_string(surface.vertex_count()) + " vertices");
+  for (Index v = 0; v < surface.vertex_count(); ++v) {
+    const Index n = skeleton.node_of_vertex[v];
+    if (surface.vertex_halfedge[v] != kNone && (n < 0 || n >= static_cast<Index>(skeleton.nodes.size())))
+      throw UsageError("vertex " + std::to_string(v) + " maps to no node of the skeleton");
+  }
+}
+
+class Skinning {
+ public:
+  Skinning(const CurveSkeleton& skeleton, const SkeletonTree& tree, const Rig& rig, double blend)
+      : tree_(tree),
+        rig_(rig),
+        joint_(skeleton.nodes.size(), kNone),
+        depth_(skeleton.nodes.size(), 0.0),
+        width_(rig.joints.size(), 0.0),
+        has_child_(rig.joints.size(), 0) {
+    for (Index j = 0; j < static_cast<Index>(rig.joints.size()); ++j) joint_[rig.joints[j].node] = j;
+    for (const Index n : tree.order)
+      if (tree.parent[n] != kNone) depth_[n] = depth_[tree.parent[n]] + tree.above[n];
+    for (Index j = 0; j < static_cast<Index>(width_.size()); ++j)
+      width_[j] = blend * skeleton.nodes[rig.joints[j].node].radius;
+    for (Index j = 1; j < static_cast<Index>(width_.size()); ++j) {
+      const Index above = rig.joints[j].parent;
+      const double half = 0.5 * (depth_[rig.joints[j].node] - depth_[rig.joints[above].node]);
+      width_[j] = std::min(width_[j], half);
+      width_[above] = std::min(width_[above], half);
+      has_child_[above] = 1;
+    }
+  }
+
+  // Per node: the bone that it is on, and near a joint the bone beyond it.
+  std::vector<Weights> of_nodes() const {
+    std::vector<Weights> weights(joint_.size());
+    for (const Index n : tree_.order) {
+      const Index here = bone_of(n);
+      add(weights[n], here, 1.0);
+      const Index above = rig_.joints[here].parent;
+      if (above == kNone) continue;
+      const double share = share_of(here, depth_[n] - depth_[rig_.joints[here].node]);
+      if (share < 1) weights[n] = two(here, share, above);
+    }
+    for (Index j = 1; j < static_cast<Index>(rig_.joints.size()); ++j) {
+      if (!has_child_[j]) continue;
+      const Index above = rig_.joints[j].parent;
+      for (Index n = tree_.parent[rig_.joints[j].node]; joint_[n] == kNone; n = tree_.parent[n]) {
+        const double share = share_of(j, depth_[n] - depth_[rig_.joints[j].node]);
+        // Where chains that leave a joint together have no joint of their own there, the first has it.
+        if (share > 0 && weights[n].size() == 1) weights[n] = two(j, share, above);
+      }
+    }
+    return weights;
+  }
+
+ private:
+  // The joint at the upper end of the bone; an end has none of its own.
+  Index bone_of(Index n) const {
+    while (joint_[n] == kNone || (joint_[n] != 0 && !has_child_[joint_[n]])) n = tree_.parent[n];
+    return joint_[n];
+  }
+  // How much what is `past` the joint along the skeleton follows it: 0 before, 1 behind, smooth between.
+  double share_of(Index joint, double past) const {
+    const double width = width_[joint];
+    if (!(width > 0)) return past >= 0 ? 1 : 0;
+    const double t = std::clamp(0.5 + 0.5 * past / width, 0.0, 1.0);
+    return t * t * (3 - 2 * t);
+  }
+  static Weights two(Index joint, double share, Index above) {
+    Weights weights;
+    add(weights, above, 1 - share);
+    add(weights, joint, share);
+    return weights;
+  }
+
+  const SkeletonTree& tree_;
+  const Rig& rig_;
+  std::vector<Index> joint_;   // per node; kNone: it is none
+  std::vector<double> depth_;  // per node: from the root along the skeleton
+  std::vector<double> width_;  // per joint: half of the stretch that follows both bones
+  std::vector<char> has_child_;
+};
+
+// Each vertex half its own and half its neighbours' mean, so weights spread along the surface only.
+void smooth(const SurfaceSnapshot& surface, Index rounds, std::vector<Weights>& weights) {
+  std::vector<Weights> next(weights.size());
+  for (Index round = 0; round < rounds; ++round) {
+    for (Index v = 0; v < surface.vertex_count(); ++v) {
+      Index degree = 0;
+      bool same = true;
+      for_each_neighbour(surface, v, [&](Index w) {
+        ++degree;
+        same = same && weights[w] == weights[v];
+      });
+      next[v] = weights[v];
+      if (same) continue;
+      for (auto& entry : next[v]) entry.second *= 0.5;
+      for_each_neighbour(surface, v, [&](Index w) {
+        for (const auto& [joint, weight] : weights[w]) add(next[v], joint, 0.5 * weight / degree);
+      });
+    }
+    weights.swap(next);
+  }
+}
+
+std::array<Influence, 4> strongest(Weights weights) {
+  std::stable_sort(weights.begin(), weights.end(),
+                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  // Less than this nobody sees, and files keep no more than seven digits.
+  constexpr double kLeast = 1e-4;
+  std::array<Influence, 4> influences{};
+  double sum = 0;
+  for (std::size_t i = 0; i < std::min<std::size_t>(4, weights.size()); ++i)
+    if (i == 0 || weights[i].second > kLeast) {
+      influences[i] = {weights[i].first, weights[i].second};
+      sum += weights[i].second;
+    }
+  if (!(sum > 0)) return {{{0, 1.0}, {}, {}, {}}};
+  for (Influence& influence : influences) influence.weight /= sum;
+  return influences;
+}
+
+void lay_joints(const CurveSkeleton& skeleton, const SkeletonTree& tree, Index wanted, Rig& rig) {
+  const std::vector<char> marked = detail::choose_joints(skeleton, tree, wanted);
+  std::vector<Index> joint(skeleton.nodes.size(), kNone);
+  for (const Index n : tree.order) {
+    if (!marked[n]) continue;
+    const Index above = detail::marked_above(tree, marked, n);
+    joint[n] = static_cast<Index>(rig.joints.size());
+    rig.joints.push_back({"", above == kNone ? kNone : joint[above], skeleton.nodes[n].position, n, kNone});
+  }
+}
+
+}  // namespace
+
+void validate(const RigOptions& options) {
+  if (options.joints < 0) throw UsageError("rig: joints must not be negative");
+  if (!(options.blend >= 0 && options.blend <= 10)) throw UsageError("rig: blend must be from 0 to 10");
+  if (options.smoothing < 0 || options.smoothing > 1000)
+    throw UsageError("rig: smoothing must be from 0 to 1000");
+}
+
+Rig make_rig(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton, const RigOptions& options) {
+  validate(options);
+  check_fit(surface, skeleton);
+  const SkeletonTree tree = detail::make_skeleton_tree(skeleton);
+  Rig rig;
+  rig.cut = tree.cut;
+  lay_joints(skeleton, tree, options.joints, rig);
+  detail::name_joints(rig, surface.frame.scale);
+  const std::vector<Weights> of_node = Skinning(skeleton, tree, rig, options.blend).of_nodes();
+  std::vector<Weights> weights(surface.vertex_count());
+  for (Index v = 0; v < surface.vertex_count(); ++v)
+    if (surface.vertex_halfedge[v] != kNone) weights[v] = of_node[skeleton.node_of_vertex[v]];
+  smooth(surface, options.smoothing, weights);
+  for (Weights& w : weights) rig.influences.push_back(strongest(std::move(w)));
+  return rig;
+}
+
+}  // namespace mspskel

@@ -1,0 +1,30 @@
+// A skeleton as one rooted tree with the nodes that become joints.
+#pragma once
+
+#include <vector>
+
+#include "mspskel/graph/curve_skeleton.h"
+
+namespace mspskel::detail {
+
+struct SkeletonTree {
+  std::vector<Index> order;        // all nodes, parents first; order[0] is the root
+  std::vector<Index> parent;       // per node; kNone at the root. Roots of other pieces have the root
+  std::vector<double> above;       // per node: length along the skeleton to its parent
+  std::vector<Index> child_count;  // per node
+  std::vector<std::array<Index, 2>> cut;
+
+  Index root() const { return order.front(); }
+};
+
+// Shortest ways along the skeleton from the node of least summed distance to the surface's area, moved to a
+// junction whose ball reaches it. O(nodes log nodes) for trees.
+SkeletonTree make_skeleton_tree(const CurveSkeleton& skeleton);
+
+// Per node whether it becomes a joint. See make_rig.
+std::vector<char> choose_joints(const CurveSkeleton& skeleton, const SkeletonTree& tree, Index wanted);
+
+// The next node towards the root that is marked; kNone at the root.
+Index marked_above(const SkeletonTree& tree, const std::vector<char>& marked, Index node);
+
+}  // namespace mspskel::detail

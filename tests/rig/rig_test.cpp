@@ -1,0 +1,180 @@
+// A rig is a tree whose weights sum to 1 and stay on their limb.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cstring>
+#include <set>
+
+#include "mspskel/base/error.h"
+#include "mspskel/extract_skeleton.h"
+#include "mspskel/io/write_glb.h"
+#include "mspskel/render/render.h"
+#include "mspskel/rig/make_rig.h"
+#include "support/meshes.h"
+
+using namespace mspskel;
+
+namespace {
+
+struct Shape {
+  SurfaceSnapshot surface;
+  CurveSkeleton skeleton;
+  PolygonSoup soup;
+};
+
+Shape sample(const std::string& name) {
+  ExtractResult result = extract_skeleton(test::to_mesh(make_sample(name)));
+  PolygonSoup soup = to_polygon_soup(result.surface);
+  return {std::move(result.surface), std::move(result.skeleton), std::move(soup)};
+}
+
+const Shape& beast() {
+  static const Shape shape = sample("quadruped");
+  return shape;
+}
+
+bool hangs_on(const Rig& rig, Index joint, Index above) {
+  while (joint != kNone && joint != above) joint = rig.joints[joint].parent;
+  return joint == above;
+}
+
+bool is_limb(const std::string& name) { return name.rfind("limb", 0) == 0; }
+std::string limb_of(const std::string& name) { return name.substr(0, name.find('_')); }
+
+}  // namespace
+
+TEST_CASE("joints are one tree, parents first, and names are unique") {
+  for (const char* name : {"quadruped", "capsule", "torus", "handles", "chain", "octoped"}) {
+    INFO(name);
+    const Shape shape = sample(name);
+    const Rig rig = make_rig(shape.surface, shape.skeleton);
+    std::set<std::string> names;
+    for (Index j = 0; j < static_cast<Index>(rig.joints.size()); ++j) {
+      CHECK((rig.joints[j].parent == kNone) == (j == 0));
+      CHECK(rig.joints[j].parent < j);
+      names.insert(rig.joints[j].name);
+    }
+    CHECK(names.size() == rig.joints.size());
+    CHECK(static_cast<Index>(rig.cut.size()) == count_graph(shape.skeleton).cycles);
+    CHECK(rig.joints.size() <= 40);
+  }
+}
+
+TEST_CASE("weights are at most four, positive and sum to 1") {
+  const Rig rig = make_rig(beast().surface, beast().skeleton);
+  REQUIRE(rig.influences.size() == beast().soup.points.size());
+  for (const auto& influences : rig.influences) {
+    double sum = 0;
+    for (const auto& [joint, weight] : influences) {
+      CHECK(weight >= 0);
+      CHECK(joint < static_cast<Index>(rig.joints.size()));
+      sum += weight;
+    }
+    CHECK(sum == Approx(1.0));
+  }
+}
+
+TEST_CASE("at rest nothing moves; a turned root turns everything") {
+  const Rig rig = make_rig(beast().surface, beast().skeleton);
+  const double extent = beast().surface.frame.scale;
+  const auto still = bend(rig, beast().soup.points, {});
+  const auto turned = bend(rig, beast().soup.points, {{0, Vector3(1, 2, 3), 70}});
+  const Eigen::AngleAxisd turn(70 * kPi / 180, Vector3(1, 2, 3).normalized());
+  for (std::size_t v = 0; v < still.size(); ++v) {
+    const Vector3& p = beast().soup.points[v];
+    CHECK((still[v] - p).norm() < 1e-9 * extent);
+    const Vector3 want = rig.joints[0].position + turn * (p - rig.joints[0].position);
+    CHECK((turned[v] - want).norm() < 1e-9 * extent);
+  }
+}
+
+TEST_CASE("a bent limb moves its tip and no other limb") {
+  const Rig rig = make_rig(beast().surface, beast().skeleton);
+  const auto& points = beast().soup.points;
+  Index bent_limbs = 0;
+  for (Index j = 0; j < static_cast<Index>(rig.joints.size()); ++j) {
+    const std::string& name = rig.joints[j].name;
+    if (!is_limb(name) || is_limb(rig.joints[rig.joints[j].parent].name)) continue;
+    const bool has_children = std::any_of(rig.joints.begin(), rig.joints.end(),
+                                          [&](const RigJoint& joint) { return joint.parent == j; });
+    if (!has_children) continue;
+    ++bent_limbs;
+    INFO(name);
+    const auto bent = bend(rig, points, {{j, Vector3(1, 1, 1), 45}});
+    double farthest = 0, elsewhere = 0;
+    for (std::size_t v = 0; v < points.size(); ++v) {
+      const double moved = (bent[v] - points[v]).norm();
+      const Index strongest = rig.influences[v][0].joint;
+      farthest = std::max(farthest, moved);
+      const std::string& there = rig.joints[strongest].name;
+      if (is_limb(there) && limb_of(there) != limb_of(name) && !hangs_on(rig, strongest, j))
+        elsewhere = std::max(elsewhere, moved);
+    }
+    CHECK(farthest > 0.02 * beast().surface.frame.scale);
+    CHECK(elsewhere < 0.01 * beast().surface.frame.scale);
+  }
+  CHECK(bent_limbs >= 5);
+}
+
+TEST_CASE("a wanted number of joints is met") {
+  for (const Index joints : {1, 2, 9, 30, 60}) {
+    RigOptions options;
+    options.joints = joints;
+    CHECK(static_cast<Index>(make_rig(beast().surface, beast().skeleton, options).joints.size()) == joints);
+  }
+}
+
+TEST_CASE("limbs that mirror each other are twins with one name") {
+  const Rig rig = make_rig(beast().surface, beast().skeleton);
+  for (std::size_t j = 0; j < rig.joints.size(); ++j) {
+    const Index twin = rig.joints[j].twin;
+    if (twin == kNone) continue;
+    CHECK(rig.joints[twin].twin == static_cast<Index>(j));
+    std::string a = rig.joints[j].name, b = rig.joints[twin].name;
+    CHECK(a.substr(0, a.size() - 1) == b.substr(0, b.size() - 1));
+    CHECK(a.back() != b.back());
+  }
+  CHECK(std::any_of(rig.joints.begin(), rig.joints.end(),
+                    [](const RigJoint& joint) { return joint.twin != kNone; }));
+}
+
+TEST_CASE("poses are read as written, and what is wrong with them is said") {
+  const Rig rig = make_rig(beast().surface, beast().skeleton);
+  const JointTurn turn = parse_joint_turn(rig, "root=y,-30");
+  CHECK(turn.joint == 0);
+  CHECK(turn.axis == Vector3::UnitY());
+  CHECK(turn.angle == -30);
+  CHECK(parse_joint_turn(rig, "root=1,0,2,5").axis == Vector3(1, 0, 2));
+  for (const char* wrong : {"root", "nobody=x,1", "root=w,1", "root=x", "root=x,much", "root=0,0,0,5"})
+    CHECK_THROWS_AS(parse_joint_turn(rig, wrong), UsageError);
+}
+
+TEST_CASE("a .glb has its lengths right") {
+  const Rig rig = make_rig(beast().surface, beast().skeleton);
+  const GlbScene scene{"beast", beast().soup, beast().skeleton};
+  for (const std::string& bytes : {format_glb(scene), format_rigged_glb(scene, rig)}) {
+    const auto number = [&](std::size_t at) {
+      std::uint32_t value = 0;
+      for (std::size_t i = 0; i < 4; ++i)
+        value |= static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[at + i])) << (8 * i);
+      return value;
+    };
+    REQUIRE(bytes.substr(0, 4) == "glTF");
+    CHECK(number(4) == 2);
+    CHECK(number(8) == bytes.size());
+    const std::size_t json = number(12);
+    CHECK(json % 4 == 0);
+    CHECK(20 + json + 8 + number(20 + json) == bytes.size());
+  }
+  CHECK(format_glb(scene).find("_RADIUS") != std::string::npos);
+  CHECK(format_rigged_glb(scene, rig).find("inverseBindMatrices") != std::string::npos);
+}
+
+TEST_CASE("options out of range, other surfaces and empty skeletons are refused") {
+  RigOptions options;
+  options.blend = -1;
+  CHECK_THROWS_AS(make_rig(beast().surface, beast().skeleton, options), UsageError);
+  CHECK_THROWS_AS(make_rig(beast().surface, CurveSkeleton{}), UsageError);
+  const Rig rig = make_rig(beast().surface, beast().skeleton);
+  CHECK_THROWS_AS(bend(rig, {}, {}), UsageError);
+  CHECK_THROWS_AS(bend(rig, beast().soup.points, {{999, Vector3::UnitX(), 1}}), UsageError);
+}
