@@ -33,6 +33,7 @@ inline void validate(const LimbOptions& o) {
 struct LimbMeasures {
   double depth = 0.0;       // how far the limb's surface reaches beyond the rest
   double half_width = 0.0;  // of its slices: their median, or lower quartile along a way into it
+  double half_chord = 0.0;  // half the chord inward from its surface, the median
   double msp_ratio = 1.0;   // MSP of the part that it leaves / MSP of the limb, at least 1
   // 2π depth² / area: length over radius of a tube, 2 / sin of the half angle of a cone. An area moves little
   // under noise and with the triangles, so this decides.
@@ -46,9 +47,9 @@ inline bool is_too_thin(const LimbMeasures& m, const LimbOptions& o, double dept
   return m.half_width < kThin * o.smallest && m.depth < depth * o.smallest;
 }
 
-// A limb by its slenderness alone.
+// A limb by its slenderness. Its surface faces itself: inward of the corner of a block is the whole block.
 inline bool is_limb(const LimbMeasures& m, const LimbOptions& o) {
-  return m.slenderness >= o.slenderness && m.depth >= 1.4 * m.half_width;
+  return m.slenderness >= o.slenderness && m.depth >= 1.4 * m.half_width && m.half_chord <= 2 * m.half_width;
 }
 
 // A finger or a toe, beside others of a palm.
