@@ -4,6 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "mspskel/graph/detail/limb_search.h"
@@ -12,8 +13,8 @@ namespace mspskel {
 namespace detail {
 
 // What is left of each component without its limbs. A body that is longer than wide ends twice along its
-// principal axis; one with a single limb that is not ends opposite to that limb. Where a limb leaves the body
-// near such an end, that limb stands for it.
+// principal axis; one with a single limb that is not ends opposite to that limb. A limb that
+// leaves the body near such an end, or has the end on its surface, stands for it.
 class BodyEnds {
  public:
   BodyEnds(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
@@ -21,14 +22,14 @@ class BodyEnds {
       : surface_(surface),
         solid_(solid),
         limbs_(limbs),
-        body_(static_cast<std::size_t>(surface.component_count)) {
-    std::vector<std::uint8_t> in_limb(surface.position.size(), 0);
+        body_(static_cast<std::size_t>(surface.component_count)),
+        in_limb_(surface.position.size(), 0) {
     for (const FoundLimb& limb : limbs) {
       if (limb.tip.kind == TipKind::kLimb) ++body_[surface.component[limb.tip.vertex]].limbs;
-      for (const Index v : limb.part) in_limb[v] = 1;
+      for (const Index v : limb.part) in_limb_[v] = 1;
     }
     for (Index v = 0; v < surface.vertex_count(); ++v) {
-      if (in_limb[v] || surface.vertex_halfedge[v] == kNone) continue;
+      if (in_limb_[v] || surface.vertex_halfedge[v] == kNone) continue;
       const Vector3& x = surface.position[v];
       Body& body = body_[surface.component[v]];
       body.area += surface.vertex_area[v];
@@ -84,6 +85,7 @@ class BodyEnds {
     const Vector3 end = centre + hit->distance * direction;
     tip.target = end - kAhead * radius * direction;
     tip.vertex = nearest_vertex(component, end);
+    if (in_limb_[tip.vertex]) return;
     tip.measures.depth = hit->distance;
     tip.measures.half_width = 0.25 * radius;
     for (Index v = 0; v < surface_.vertex_count(); ++v)
@@ -109,7 +111,8 @@ class BodyEnds {
   const SurfaceSnapshot& surface_;
   const BoundingVolumeHierarchy& solid_;
   const std::vector<FoundLimb>& limbs_;
-  std::vector<Body> body_;  // per component
+  std::vector<Body> body_;             // per component
+  std::vector<std::uint8_t> in_limb_;  // per vertex
 };
 
 }  // namespace detail

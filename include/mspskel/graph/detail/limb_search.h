@@ -189,35 +189,33 @@ class LimbTipSearch {
   int openings(const std::vector<Index>& round, const std::vector<Index>& part) {
     double area = 0;
     for (const Index v : part) area += surface_.vertex_area[v];
-    ++flood_;
-    const Index in_ring = flood_;
+    const Index in_ring = ++last_flood_, in_loop = ++last_flood_;
     for (const Index v : round) flooded_[v] = in_ring;
-    ++flood_;
     int count = 0;
     for (const Index first : round) {
       if (flooded_[first] != in_ring) continue;
       std::vector<Index> loop{first};
-      flooded_[first] = flood_;
+      flooded_[first] = in_loop;
       for (std::size_t i = 0; i < loop.size(); ++i)
         for_each_neighbour(surface_, loop[i], [&](Index w) {
           if (flooded_[w] != in_ring) return;
-          flooded_[w] = flood_;
+          flooded_[w] = in_loop;
           loop.push_back(w);
         });
-      if (leads_out(std::move(loop), 0.5 * area, in_ring)) ++count;
+      if (leads_out(std::move(loop), 0.5 * area)) ++count;
     }
     return count;
   }
 
   // Whether more than the given area lies behind a loop of the ring round a part that has just been walked.
-  bool leads_out(std::vector<Index> loop, double least, Index in_ring) {
-    ++flood_;
+  bool leads_out(std::vector<Index> loop, double least) {
+    const Index flood = ++last_flood_;
     double area = 0;
     for (std::size_t i = 0; i < loop.size() && area <= least; ++i) {
       area += surface_.vertex_area[loop[i]];
       for_each_neighbour(surface_, loop[i], [&](Index w) {
-        if (walked_[w] == walk_ || flooded_[w] >= in_ring) return;
-        flooded_[w] = flood_;
+        if (walked_[w] == walk_ || flooded_[w] == flood) return;
+        flooded_[w] = flood;
         loop.push_back(w);
       });
     }
@@ -251,7 +249,7 @@ class LimbTipSearch {
   std::vector<Index> walked_;      // the last walk that came by
   Index walk_ = 0;
   std::vector<Index> flooded_;  // the last flood that came by
-  Index flood_ = 0;
+  Index last_flood_ = 0;
   std::vector<FoundLimb> limbs_, ears_;
 };
 
