@@ -135,11 +135,13 @@ TEST_CASE("Small ears count on a body with limbs, and no bump of a body without"
   CHECK(reached.size() == 6);
 
   LimbMeasures bump;
-  bump.depth = bump.half_width = 1;
+  bump.depth = bump.half_width = bump.carrier_half_chord = 1;
   bump.slenderness = 0.6;
   bump.msp_ratio = 4;
   CHECK(is_ear(bump, {}));
   CHECK_FALSE(is_limb(bump, {}));
+  bump.carrier_half_chord = 0.5;  // wider than what carries it is thick: the corner of a plate
+  CHECK_FALSE(is_ear(bump, {}));
 }
 
 TEST_CASE("A handle without limbs has no tips: the loop is its skeleton") {

@@ -35,8 +35,8 @@ struct LimbTip {
 // one that is farther takes them over (the persistence of Edelsbrunner, Letscher and Zomorodian 2002,
 // "Topological persistence and simplification") or the part is half of the component, so no limb is measured
 // by another one. It has to be deeper than 1.5 smallest features and 1.5 edges of the surface, be open at one
-// place only (what goes round a handle is open at two), and satisfy is_limb; in a component that has limbs,
-// is_ear will do. None lies in the wall of a shell.
+// place only (what goes round a handle is open at two), and satisfy is_limb; in a component that has limbs
+// or whose body ends in tips, is_ear will do. None lies in the wall of a shell.
 // A body that is longer than wide has tips where it ends and no limb does. In a component of genus 0 without
 // limbs the ends of its longest way are tips.
 // Cost: a segment query a vertex, O(vertices log vertices).

@@ -27,7 +27,7 @@ struct FoundLimb {
   Vector3 root = Vector3::Zero();  // the middle of the ring where it leaves the rest
 };
 
-// The limbs of a surface, each measured at the level at which it is most slender.
+// The limbs and ears of a surface, each measured at the level at which it is most slender.
 class LimbTipSearch {
  public:
   LimbTipSearch(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
@@ -58,10 +58,6 @@ class LimbTipSearch {
         },
         [&](Part& part, Index v) { join(part, v); });
     parts.for_each_left([&](Part& part) { finish(part); });
-    std::vector<bool> limbed(half_area_.size(), false);
-    for (const FoundLimb& limb : limbs_) limbed[surface_.component[limb.tip.vertex]] = true;
-    for (FoundLimb& ear : ears_)
-      if (limbed[surface_.component[ear.tip.vertex]]) limbs_.push_back(std::move(ear));
     return std::move(limbs_);
   }
 
@@ -96,14 +92,11 @@ class LimbTipSearch {
     if (notes.slenderness == 0) return notes.own > 0;
     std::optional<FoundLimb> found = measure(part.top, notes);
     if (!found) return notes.own > 0;
-    if (is_limb(found->tip.measures, options_)) {
-      limbs_.push_back(std::move(*found));
-    } else if (is_ear(found->tip.measures, options_)) {
+    if (!is_limb(found->tip.measures, options_)) {
+      if (!is_ear(found->tip.measures, options_)) return notes.own > 0;
       found->tip.kind = TipKind::kEar;
-      ears_.push_back(std::move(*found));
-    } else {
-      return notes.own > 0;
     }
+    limbs_.push_back(std::move(*found));
     return true;
   }
 
@@ -120,13 +113,10 @@ class LimbTipSearch {
     tip.vertex = top;
     LimbMeasures& m = tip.measures;
     m.depth = distance_[top] - level;
-    std::vector<double> widths, chords;
+    std::vector<double> widths;
     double whole = 0, sliced = 0, perimeter = 0;
-    constexpr std::size_t kChords = 64;
-    for (std::size_t i = 0; i < part.size(); ++i) {
-      const Index v = part[i];
+    for (const Index v : part) {
       whole += surface_.vertex_area[v];
-      if (i % (1 + part.size() / kChords) == 0) chords.push_back(half_chord(surface_, solid_, v));
       if (!slices_.valid[v]) continue;
       sliced += surface_.vertex_area[v];
       perimeter += surface_.vertex_area[v] * slices_.perimeter[v];
@@ -134,9 +124,11 @@ class LimbTipSearch {
     }
     if (!(whole > 0 && perimeter > 0)) return std::nullopt;
     m.half_width = value_at_rank(std::move(widths), 0.5);
-    m.half_chord = value_at_rank(std::move(chords), 0.5);
+    m.half_chord = median_half_chord(part);
     m.slenderness = 2 * kPi * m.depth * m.depth / whole;
-    m.msp_ratio = std::max(1.0, parent_perimeter(round, found.root, 2 * m.half_width) * sliced / perimeter);
+    const std::vector<Index> carrier = surface_beside(round, found.root, 2 * m.half_width);
+    m.carrier_half_chord = median_half_chord(carrier);
+    m.msp_ratio = std::max(1.0, mean_perimeter(carrier) * sliced / perimeter);
     if (!set_end(tip, notes.own)) return std::nullopt;
     return found;
   }
@@ -222,20 +214,31 @@ class LimbTipSearch {
     return area > least;
   }
 
-  // The mean MSP on the ring and beyond it.
-  double parent_perimeter(std::vector<Index> round, const Vector3& middle, double reach) {
-    double sum = 0, area = 0;
-    for (std::size_t i = 0; i < round.size(); ++i) {
-      const Index v = round[i];
-      if (slices_.valid[v]) {
-        sum += surface_.vertex_area[v] * slices_.perimeter[v];
-        area += surface_.vertex_area[v];
-      }
-      for_each_neighbour(surface_, v, [&](Index w) {
+  // The ring round a part that has just been walked, and the surface beyond it as far as `reach`.
+  std::vector<Index> surface_beside(std::vector<Index> round, const Vector3& middle, double reach) {
+    for (std::size_t i = 0; i < round.size(); ++i)
+      for_each_neighbour(surface_, round[i], [&](Index w) {
         if (walked_[w] == walk_ || (surface_.position[w] - middle).squaredNorm() >= reach * reach) return;
         walked_[w] = walk_;
         round.push_back(w);
       });
+    return round;
+  }
+
+  double median_half_chord(const std::vector<Index>& vertices) const {
+    constexpr std::size_t kChords = 64;
+    std::vector<double> chords;
+    for (std::size_t i = 0; i < vertices.size(); i += 1 + vertices.size() / kChords)
+      chords.push_back(half_chord(surface_, solid_, vertices[i]));
+    return value_at_rank(std::move(chords), 0.5);
+  }
+
+  double mean_perimeter(const std::vector<Index>& vertices) const {
+    double sum = 0, area = 0;
+    for (const Index v : vertices) {
+      if (!slices_.valid[v]) continue;
+      sum += surface_.vertex_area[v] * slices_.perimeter[v];
+      area += surface_.vertex_area[v];
     }
     return area > 0 ? sum / area : 0.0;
   }
@@ -250,7 +253,7 @@ class LimbTipSearch {
   Index walk_ = 0;
   std::vector<Index> flooded_;  // the last flood that came by
   Index last_flood_ = 0;
-  std::vector<FoundLimb> limbs_, ears_;
+  std::vector<FoundLimb> limbs_;
 };
 
 }  // namespace detail

@@ -151,6 +151,30 @@ MSPSKEL_INLINE void drop_tips_in_walls(const SurfaceSnapshot& surface, const Bou
   tips.erase(std::remove_if(tips.begin(), tips.end(), in_wall), tips.end());
 }
 
+namespace detail {
+
+// Adds the ends of the bodies that have limbs or handles. Ears of components with neither limbs nor such ends
+// go: on a plain body they are corners.
+inline void add_body_ends(const SurfaceSnapshot& surface, const std::vector<bool>& shells,
+                          const BodyEnds& bodies, std::vector<LimbTip>& tips) {
+  const std::vector<Index> twice_euler = twice_euler_characteristics(surface);
+  std::vector<bool> has_ears(shells.size(), false);
+  for (Index c = 0; c < surface.component_count; ++c) {
+    has_ears[c] = bodies.limb_count(c) > 0;
+    if (shells[c] || (!has_ears[c] && twice_euler[c] == 4)) continue;
+    for (LimbTip& end : bodies.run(c)) {
+      has_ears[c] = true;
+      tips.push_back(std::move(end));
+    }
+  }
+  const auto is_corner = [&](const LimbTip& tip) {
+    return tip.kind == TipKind::kEar && !has_ears[surface.component[tip.vertex]];
+  };
+  tips.erase(std::remove_if(tips.begin(), tips.end(), is_corner), tips.end());
+}
+
+}  // namespace detail
+
 MSPSKEL_INLINE std::vector<LimbTip> find_limb_tips(const SurfaceSnapshot& surface,
                                                    const BoundingVolumeHierarchy& solid,
                                                    const VertexSlices& slices, const LimbOptions& options,
@@ -169,12 +193,7 @@ MSPSKEL_INLINE std::vector<LimbTip> find_limb_tips(const SurfaceSnapshot& surfac
       tip.target = surface.position[tip.vertex];
   const std::vector<bool> shells = find_shells(surface, solid, slices);
   drop_tips_in_walls(surface, solid, shells, tips);
-  const detail::BodyEnds bodies(surface, solid, limbs);
-  const std::vector<Index> twice_euler = twice_euler_characteristics(surface);
-  for (Index c = 0; c < surface.component_count; ++c) {
-    if (shells[c] || (bodies.limb_count(c) == 0 && twice_euler[c] == 4)) continue;
-    for (LimbTip& end : bodies.run(c)) tips.push_back(std::move(end));
-  }
+  detail::add_body_ends(surface, shells, detail::BodyEnds(surface, solid, limbs), tips);
   detail::add_longest_ways(surface, ways, distance, tips);
   for (LimbTip& tip : tips) tip.position = surface.position[tip.vertex];
   return tips;
