@@ -6,6 +6,8 @@
 #include "graph/arc_graphs.h"
 #include "graph/solids.h"
 #include "mspskel/extract_skeleton.h"
+#include "mspskel/mesh/detail/solid_moments.h"
+#include "mspskel/mesh/detail/solid_moments.h"
 
 using namespace mspskel;
 using namespace mspskel::test;
@@ -77,13 +79,23 @@ TEST_CASE("What has limbs, a handle, or air in its middle keeps its arcs") {
   ArcGraph graph = crooked(block);
   LimbTip limb;
   limb.vertex = 0;
-  limb.measures.depth = 0.1;
   CHECK(lay_axes(graph, block.surface, block.hierarchy, {limb}) == 0);
   CHECK(graph.arcs.front().alive);
   const Solid ring(torus(3, 1, 40, 20));
   graph = crooked(ring);
   CHECK(lay_axes(graph, ring.surface, ring.hierarchy, {}) == 0);
   CHECK(graph.arcs.front().alive);
+}
+
+TEST_CASE("What is longer than wide has its axis along its length, however flat it is") {
+  for (const Vector3& sides : {Vector3(3, 2, 1), Vector3(5, 4, 1), Vector3(10, 5, 2)}) {
+    DefaultMesh ellipsoid = sphere(1200);
+    for (const auto v : ellipsoid.vertices())
+      ellipsoid.set_point(v, {ellipsoid.point(v)[0] * sides.x(), ellipsoid.point(v)[1] * sides.y(),
+                              ellipsoid.point(v)[2] * sides.z()});
+    const Vector3 axis = detail::solid_moments(make_snapshot(ellipsoid))[0].axis();
+    CHECK(std::abs(axis.x()) > 0.999);
+  }
 }
 
 TEST_CASE("The skeleton of a block does not depend on its triangles") {

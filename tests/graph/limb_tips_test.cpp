@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <set>
 
 #include "graph/solids.h"
@@ -47,12 +48,12 @@ TEST_CASE("Samples have the tips that they were made with") {
   CHECK(tips_of(Solid(sample("capsule", 1000))).size() == 2);
 }
 
-TEST_CASE("A shape without limbs has the ends of its longest way, of no depth") {
+TEST_CASE("A shape without limbs has the ends of its longest way as tips, which are no limbs") {
   const Solid solid(sphere(500));
   const std::vector<LimbTip> tips = tips_of(solid);
   REQUIRE(tips.size() == 2);
   for (const LimbTip& tip : tips) {
-    CHECK(tip.measures.depth == 0);
+    CHECK(tip.kind == TipKind::kWayEnd);
     CHECK_FALSE(tip.cap.empty());
   }
   const auto at = [&](int i) { return solid.surface.position[tips[i].vertex].normalized(); };
@@ -64,8 +65,8 @@ TEST_CASE("Fewer tips are limbs where more is asked") {
   std::size_t before = solid.surface.position.size();
   for (const double slenderness : {0.01, 0.3, 1.0, 3.0, 10.0, 100.0}) {
     const std::vector<LimbTip> tips = tips_of(solid, slenderness);
-    const auto limbs = static_cast<std::size_t>(
-        std::count_if(tips.begin(), tips.end(), [](const LimbTip& tip) { return tip.measures.depth > 0; }));
+    const auto limbs = static_cast<std::size_t>(std::count_if(
+        tips.begin(), tips.end(), [](const LimbTip& tip) { return tip.kind == TipKind::kLimb; }));
     CHECK(limbs <= before);
     before = limbs;
   }
@@ -98,7 +99,7 @@ TEST_CASE("Pieces have tips of their own, and nothing to measure gives none") {
 }
 
 TEST_CASE("The corners of a block are no limbs") {
-  for (const LimbTip& tip : tips_of(Solid(prism(4, 1.5, 13)))) CHECK(tip.measures.depth == 0);
+  for (const LimbTip& tip : tips_of(Solid(prism(4, 1.5, 13)))) CHECK(tip.kind == TipKind::kWayEnd);
 }
 
 TEST_CASE("A limb's slenderness is its length over its radius, however fine the triangles are") {
@@ -110,12 +111,11 @@ TEST_CASE("A limb's slenderness is its length over its radius, however fine the 
     const Solid solid(to_mesh(skin_graph(star, vertices)));
     const std::vector<LimbTip> tips = tips_of(solid);
     REQUIRE(tips.size() == 4);
-    // One may be measured to where two of the others have met it.
     const auto like_a_tube = std::count_if(tips.begin(), tips.end(), [&](const LimbTip& tip) {
       const double depth = tip.measures.depth * solid.surface.frame.scale;
       return std::abs(tip.measures.slenderness / (depth / 0.3) - 1) < 0.15;
     });
-    CHECK(like_a_tube >= 3);
+    CHECK(like_a_tube == 4);
   }
 }
 
@@ -135,15 +135,50 @@ TEST_CASE("Small ears count on a body with limbs, and no bump of a body without"
   CHECK(reached.size() == 6);
 
   LimbMeasures bump;
-  bump.depth = bump.half_width = 1;
+  bump.depth = bump.half_width = bump.carrier_half_chord = 1;
   bump.slenderness = 0.6;
   bump.msp_ratio = 4;
   CHECK(is_ear(bump, {}));
   CHECK_FALSE(is_limb(bump, {}));
+  bump.carrier_half_chord = 0.5;  // wider than what carries it is thick: the corner of a plate
+  CHECK_FALSE(is_ear(bump, {}));
 }
 
 TEST_CASE("A handle without limbs has no tips: the loop is its skeleton") {
   CHECK(tips_of(Solid(torus(3, 1, 60, 24))).empty());
+}
+
+TEST_CASE(
+    "The bow of a handle is no limb, however slender, and the foot opposite to the only limb has a tip") {
+  BallGraph jug;
+  jug.blend = 0.1;
+  jug.nodes = {{{0, 0, 0}, 1.5},    {{0, 0, 4}, 0.4},     {{1, 0, 0.6}, 0.25},
+               {{2.6, 0, 1}, 0.25}, {{2.6, 0, -1}, 0.25}, {{1, 0, -0.6}, 0.25}};
+  jug.edges = {{0, 1}, {2, 3}, {3, 4}, {4, 5}, {0, 2}, {0, 5}};
+  const Solid solid(to_mesh(skin_graph(jug, 4000)));
+  for (const LimbTip& tip : tips_of(solid)) {
+    const Vector3 at = solid.model(tip.position);
+    if (tip.kind == TipKind::kLimb) CHECK((at - jug.nodes[1].position).norm() < 0.6);
+    CHECK(at.x() < 1.6);
+  }
+}
+
+TEST_CASE("The handle of a hammer is a limb, and both ends of its head have tips") {
+  for (const double handle : {3.0, 6.0, 12.0}) {
+    BallGraph hammer;
+    hammer.blend = 0;
+    hammer.nodes = {{{0, 0, 0}, 0.8}, {{1.6, 0, 0}, 0.8}, {{-1.6, 0, 0}, 0.8}, {{0, 0, -handle}, 0.3}};
+    hammer.edges = {{0, 1}, {0, 2}, {0, 3}};
+    const Solid solid(to_mesh(skin_graph(hammer, 4000)));
+    std::set<Index> reached;
+    for (const LimbTip& tip : tips_of(solid))
+      for (const Index i : {1, 2, 3})
+        if ((solid.model(tip.position) - hammer.nodes[i].position).norm() < 1.2 * hammer.nodes[i].radius) {
+          reached.insert(i);
+          if (i == 3) CHECK(tip.kind == TipKind::kLimb);
+        }
+    CHECK(reached.size() == 3);
+  }
 }
 
 TEST_CASE("A knob on the farthest limb hides neither that limb nor the others") {

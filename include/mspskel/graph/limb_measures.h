@@ -31,9 +31,11 @@ inline void validate(const LimbOptions& o) {
 // What a limb is judged by: how far it protrudes for its surface, for its width, and how much smaller its
 // slices are than those of the part that it leaves (the saturation of Eq. 4.5 lifted from nodes to branches).
 struct LimbMeasures {
-  double depth = 0.0;       // how far the limb's surface reaches beyond the rest
-  double half_width = 0.0;  // of its slices: their median, or lower quartile along a way into it
-  double msp_ratio = 1.0;   // MSP of the part that it leaves / MSP of the limb, at least 1
+  double depth = 0.0;               // how far the limb's surface reaches beyond the rest
+  double half_width = 0.0;          // of its slices: their median, or lower quartile along a way into it
+  double half_chord = 0.0;          // half the chord inward from its surface, the median
+  double carrier_half_chord = 0.0;  // the same of the surface beside its root
+  double msp_ratio = 1.0;           // MSP of the part that it leaves / MSP of the limb, at least 1
   // 2π depth² / area: length over radius of a tube, 2 / sin of the half angle of a cone. An area moves little
   // under noise and with the triangles, so this decides.
   double slenderness = 0.0;
@@ -46,9 +48,9 @@ inline bool is_too_thin(const LimbMeasures& m, const LimbOptions& o, double dept
   return m.half_width < kThin * o.smallest && m.depth < depth * o.smallest;
 }
 
-// A limb by its slenderness alone.
+// A limb by its slenderness. Its surface faces itself: inward of the corner of a block is the whole block.
 inline bool is_limb(const LimbMeasures& m, const LimbOptions& o) {
-  return m.slenderness >= o.slenderness && m.depth >= 1.4 * m.half_width;
+  return m.slenderness >= o.slenderness && m.depth >= 1.4 * m.half_width && m.half_chord <= 2 * m.half_width;
 }
 
 // A finger or a toe, beside others of a palm.
@@ -57,10 +59,11 @@ inline bool is_digit(const LimbMeasures& m, const LimbOptions& o) {
 }
 
 // An ear or a horn: a bump rather than a limb, but much smaller than what carries it. Only in a shape that
-// has limbs: measured so, the corners of a block are ears as well.
+// has limbs: measured so, the corners of a block are ears as well. The corner of a plate is wider than the
+// plate is thick.
 inline bool is_ear(const LimbMeasures& m, const LimbOptions& o) {
-  return m.slenderness >= 0.3 * o.slenderness && m.slenderness * m.msp_ratio >= 0.65 * o.slenderness &&
-         m.depth >= 0.75 * m.half_width;
+  return m.half_width <= 1.25 * m.carrier_half_chord && m.slenderness >= 0.3 * o.slenderness &&
+         m.slenderness * m.msp_ratio >= 0.65 * o.slenderness && m.depth >= 0.75 * m.half_width;
 }
 
 // A protrusion that no arc comes near, measured without its area: the longer, the less has to tell it from

@@ -12,25 +12,33 @@
 
 namespace mspskel {
 
+enum class TipKind {
+  kLimb,
+  kEar,      // a bump much smaller than what carries it
+  kBodyEnd,  // where the axis of what is left without the limbs ends, and no limb does
+  kWayEnd,   // of the longest way in a component without limbs
+};
+
 struct LimbTip {
+  TipKind kind = TipKind::kLimb;
   Index vertex = kNone;                // the one farthest from the middle of the shape
   Vector3 position = Vector3::Zero();  // of that vertex on the surface on which the tip was found
   // The mean of the surface at the very end, or `position` where that is not well inside the solid.
   Vector3 target = Vector3::Zero();
-  // Its depth: how far the vertex is beyond where the limb meets what is farther still.
+  // Its depth: how far the vertex is beyond where the limb is most slender; of a body's end, from the middle.
   LimbMeasures measures;
   std::vector<Index> cap;  // the end: the outer half of that depth, and at most 1.5 half widths
 };
 
-// The maxima of the inner distance from the middle of each component, as far as they are limbs: where the
-// parts of the surface beyond a distance grow together as the distance falls, the limbs that they stand for
-// meet, so a limb is as deep as its maximum is persistent (Edelsbrunner, Letscher and Zomorodian 2002,
-// "Topological persistence and simplification"). Noise moves no depth by more than twice its size, and the
-// surface's triangles do not matter. A limb is deeper than 2.5 smallest features, a thin one than 3.4, and
-// is_limb; in a component that has limbs, is_ear will do. What reaches farthest counts where something else
-// does, and its end is measured where it meets the first other limb. A limb across the way to another one is
-// measured less than its length; what goes round a handle has a maximum too, though no limb. None lies in the
-// wall of a shell. In a component of genus 0 without limbs the ends of its longest way are tips of depth 0.
+// The limbs of each component. A limb is what lies beyond a maximum of the inner distance from the middle, as
+// far down as it is most slender: on a tube that is its root, where the area jumps. Maxima are followed until
+// one that is farther takes them over (the persistence of Edelsbrunner, Letscher and Zomorodian 2002,
+// "Topological persistence and simplification") or the part is half of the component, so no limb is measured
+// by another one. It has to be deeper than 1.5 smallest features and 1.5 edges of the surface, be open at one
+// place only (what goes round a handle is open at two), and satisfy is_limb; in a component that has limbs
+// or whose body ends in tips, is_ear will do. None lies in the wall of a shell.
+// A body that is longer than wide has tips where it ends and no limb does. In a component of genus 0 without
+// limbs the ends of its longest way are tips.
 // Cost: a segment query a vertex, O(vertices log vertices).
 std::vector<LimbTip> find_limb_tips(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
                                     const VertexSlices& slices, const LimbOptions& options,
@@ -41,7 +49,7 @@ std::vector<LimbTip> find_limb_tips(const SurfaceSnapshot& surface, const Boundi
 void drop_tips_in_walls(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
                         const std::vector<bool>& shells, std::vector<LimbTip>& tips);
 
-// Per component of the surface, whether one of the tips is a limb's: those of depth 0 are not.
+// Per component of the surface, whether one of the tips is a limb's or an ear's.
 std::vector<bool> components_with_limbs(const SurfaceSnapshot& surface, const std::vector<LimbTip>& tips);
 
 // The tips as vertices of a coarser surface, whose vertex each vertex merged into.

@@ -100,7 +100,7 @@ MSPSKEL_INLINE Index aim_at_tips(ArcGraph& graph, const BoundingVolumeHierarchy&
   const std::vector<std::size_t> leaf_of_tip = detail::leaves_of_tips(graph, leaves, tips);
   Index aimed = 0;
   for (std::size_t t = 0; t < tips.size(); ++t) {
-    if (leaf_of_tip[t] == detail::kNoLeaf || !(tips[t].measures.depth > 0)) continue;
+    if (leaf_of_tip[t] == detail::kNoLeaf || tips[t].kind == TipKind::kWayEnd) continue;
     const detail::LeafArc& leaf = leaves.leaf[leaf_of_tip[t]];
     std::vector<Vector3> points = detail::leaf_points(graph, leaf);
     const double off = (points.back() - tips[t].target).norm();

@@ -94,13 +94,28 @@ class LimbCompletion {
     std::vector<std::pair<double, Index>> bare;
     const std::vector<std::size_t> leaf = leaves_of_tips(graph_, ArcLeaves(graph_, at), tips_);
     for (std::size_t i = 0; i < tips_.size(); ++i)
-      if (leaf[i] == kNoLeaf && tips_[i].measures.depth > 0)
+      if (leaf[i] == kNoLeaf && tips_[i].kind != TipKind::kWayEnd)
         bare.push_back({-tips_[i].measures.depth, static_cast<Index>(i)});
     std::sort(bare.begin(), bare.end());
     Index added = 0;
     for (const auto& [depth, i] : bare)
-      if (outside_[tips_[i].vertex] > -0.5 * depth && try_limb(tips_[i].vertex, true)) ++added;
+      if (outside_[tips_[i].vertex] > -0.5 * depth && reach_tip(tips_[i])) ++added;
     return added;
+  }
+
+  // The end of a body lies in its middle, so the way to it is straight or none.
+  bool reach_tip(const LimbTip& tip) {
+    if (tip.kind != TipKind::kBodyEnd) return try_limb(tip.vertex, true);
+    const Index component = surface_.component[tip.vertex];
+    const auto own = [&](Index hub) { return hub_component_[hub] == component; };
+    for (const auto& [distance, point] :
+         nearest_points(graph_, tip.target, own, [&](Index arc) { return own(graph_.arcs[arc].hub[0]); })) {
+      if (distance < step_) return false;
+      if (solid_.segment_crosses(point.position, tip.target)) continue;
+      add(point, resampled({{0, 1}, {point.position, tip.target}, true}, step_), component);
+      return true;
+    }
+    return false;
   }
 
   static constexpr double kNever = -std::numeric_limits<double>::infinity();

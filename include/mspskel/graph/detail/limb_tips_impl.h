@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "mspskel/base/linkage.h"
-#include "mspskel/graph/detail/growing_parts.h"
-#include "mspskel/graph/detail/inward_chord.h"
+#include "mspskel/graph/detail/body_ends.h"
+#include "mspskel/graph/detail/limb_search.h"
 #include "mspskel/mesh/inner_distance.h"
 
 namespace mspskel {
@@ -16,135 +16,11 @@ MSPSKEL_INLINE std::vector<bool> components_with_limbs(const SurfaceSnapshot& su
                                                        const std::vector<LimbTip>& tips) {
   std::vector<bool> limbed(static_cast<std::size_t>(surface.component_count), false);
   for (const LimbTip& tip : tips)
-    if (tip.measures.depth > 0) limbed[surface.component[tip.vertex]] = true;
+    if (tip.kind == TipKind::kLimb || tip.kind == TipKind::kEar) limbed[surface.component[tip.vertex]] = true;
   return limbed;
 }
 
 namespace detail {
-
-// A depth from the middle of the shape is measured between vertices of the surface; in smallest features.
-inline constexpr double kLeastTipDepth = 2.5;
-inline constexpr double kLeastThinTipDepth = 3.4;
-
-// The limbs that the parts beyond a distance stand for when they meet.
-class LimbTipSearch {
- public:
-  LimbTipSearch(const SurfaceSnapshot& surface, const VertexSlices& slices, const LimbOptions& options,
-                const std::vector<double>& distance)
-      : surface_(surface),
-        slices_(slices),
-        options_(options),
-        distance_(distance),
-        walked_(surface.position.size(), 0) {}
-
-  std::vector<LimbTip> run() {
-    std::vector<Index> reached, place(surface_.position.size(), kNone);
-    for (Index v = 0; v < surface_.vertex_count(); ++v)
-      if (std::isfinite(distance_[v])) reached.push_back(v);
-    GrowingParts<Notes> parts(surface_, distance_, std::move(reached), place);
-    parts.grow([&](Part& high, Part& low, Index saddle) { meet(high, low, saddle); }, [](Part&, Index) {});
-    parts.for_each_left([&](Part& part) {
-      if (part.notes.limb) limbs_.push_back(std::move(*part.notes.limb));
-    });
-    const std::vector<bool> limbed = components_with_limbs(surface_, limbs_);
-    for (LimbTip& tip : ears_)
-      if (limbed[surface_.component[tip.vertex]]) limbs_.push_back(std::move(tip));
-    return std::move(limbs_);
-  }
-
- private:
-  struct Notes {
-    std::optional<LimbTip> limb, ear;  // the part's top, measured where it first met one
-  };
-  using Part = GrowingParts<Notes>::Part;
-
-  // A part in which limbs have met is one.
-  void meet(Part& high, Part& low, Index saddle) {
-    Notes &a = high.notes, &b = low.notes;
-    std::optional<LimbTip> tip = measure(low, saddle);
-    if (!tip) return;
-    if (b.limb || is_limb(tip->measures, options_)) {
-      // Of such a part only what was its top's own before is its end.
-      if (b.limb) {
-        tip->cap = b.limb->cap;
-        tip->target = b.limb->target;
-      }
-      limbs_.push_back(std::move(*tip));
-      if (!a.limb) a.limb = measure(high, saddle);
-    } else if (b.ear || is_ear(tip->measures, options_)) {
-      ears_.push_back(b.ear ? std::move(*b.ear) : std::move(*tip));
-      if (!a.limb && !a.ear) a.ear = measure(high, saddle);
-    }
-  }
-
-  // The part as a limb that ends at the saddle; nothing if it has no slices or is too shallow.
-  std::optional<LimbTip> measure(const Part& part, Index saddle) {
-    LimbTip tip;
-    tip.vertex = part.top;
-    LimbMeasures& m = tip.measures;
-    m.depth = distance_[part.top] - distance_[saddle];
-    if (!(m.depth > kLeastTipDepth * options_.smallest)) return std::nullopt;
-    std::vector<double> widths;
-    double whole = 0, sliced = 0, perimeter = 0;
-    for (const Index v : part.vertices) {
-      whole += surface_.vertex_area[v];
-      if (!slices_.valid[v]) continue;
-      sliced += surface_.vertex_area[v];
-      perimeter += surface_.vertex_area[v] * slices_.perimeter[v];
-      widths.push_back(slices_.half_width[v]);
-    }
-    if (!(whole > 0)) return std::nullopt;
-    m.half_width = value_at_rank(std::move(widths), 0.5);
-    m.slenderness = 2 * kPi * m.depth * m.depth / whole;
-    if (is_too_thin(m, options_, kLeastThinTipDepth)) return std::nullopt;
-    const double cap = std::min(0.5 * m.depth, 1.5 * m.half_width);
-    const double end = std::min(0.5 * m.depth, kEnd * m.half_width);
-    double area = 0;
-    for (const Index v : part.vertices) {
-      const double behind = distance_[part.top] - distance_[v];
-      if (behind < cap) tip.cap.push_back(v);
-      if (behind > end) continue;
-      tip.target += surface_.vertex_area[v] * surface_.position[v];
-      area += surface_.vertex_area[v];
-    }
-    if (!(area > 0)) return std::nullopt;
-    tip.target /= area;
-    if (!(perimeter > 0)) return std::nullopt;
-    m.msp_ratio = std::max(1.0, parent_perimeter(part, saddle, 2 * m.half_width) * sliced / perimeter);
-    return tip;
-  }
-
-  // The mean MSP round the saddle, the part itself left out.
-  double parent_perimeter(const Part& part, Index saddle, double reach) {
-    ++walk_;
-    for (const Index v : part.vertices) walked_[v] = walk_;
-    std::vector<Index> round{saddle};
-    walked_[saddle] = walk_;
-    double sum = 0, area = 0;
-    for (std::size_t i = 0; i < round.size(); ++i) {
-      if (slices_.valid[round[i]]) {
-        sum += surface_.vertex_area[round[i]] * slices_.perimeter[round[i]];
-        area += surface_.vertex_area[round[i]];
-      }
-      for_each_neighbour(surface_, round[i], [&](Index w) {
-        if (walked_[w] == walk_ ||
-            (surface_.position[w] - surface_.position[saddle]).squaredNorm() >= reach * reach)
-          return;
-        walked_[w] = walk_;
-        round.push_back(w);
-      });
-    }
-    return area > 0 ? sum / area : 0.0;
-  }
-
-  const SurfaceSnapshot& surface_;
-  const VertexSlices& slices_;
-  const LimbOptions& options_;
-  const std::vector<double>& distance_;
-  std::vector<Index> walked_;  // the last walk that came by
-  Index walk_ = 0;
-  std::vector<LimbTip> limbs_, ears_;
-};
 
 // The vertex of the greatest finite value in each component; kNone where there is none.
 template <class Value>
@@ -188,6 +64,7 @@ inline void add_longest_ways(const SurfaceSnapshot& surface, const SurfaceWays& 
   const std::vector<double> back = surface_distances(surface, ways, to);
   const auto add = [&](Index c, Index end, const std::vector<double>& along) {
     LimbTip tip;
+    tip.kind = TipKind::kWayEnd;
     tip.vertex = end;
     for (Index v = 0; v < surface.vertex_count(); ++v)
       if (surface.component[v] == c && along[v] > kCap * along[end]) tip.cap.push_back(v);
@@ -274,6 +151,30 @@ MSPSKEL_INLINE void drop_tips_in_walls(const SurfaceSnapshot& surface, const Bou
   tips.erase(std::remove_if(tips.begin(), tips.end(), in_wall), tips.end());
 }
 
+namespace detail {
+
+// Adds the ends of the bodies that have limbs or handles. Ears of components with neither limbs nor such ends
+// go: on a plain body they are corners.
+inline void add_body_ends(const SurfaceSnapshot& surface, const std::vector<bool>& shells,
+                          const BodyEnds& bodies, std::vector<LimbTip>& tips) {
+  const std::vector<Index> twice_euler = twice_euler_characteristics(surface);
+  std::vector<bool> has_ears(shells.size(), false);
+  for (Index c = 0; c < surface.component_count; ++c) {
+    has_ears[c] = bodies.limb_count(c) > 0;
+    if (shells[c] || (!has_ears[c] && twice_euler[c] == 4)) continue;
+    for (LimbTip& end : bodies.run(c)) {
+      has_ears[c] = true;
+      tips.push_back(std::move(end));
+    }
+  }
+  const auto is_corner = [&](const LimbTip& tip) {
+    return tip.kind == TipKind::kEar && !has_ears[surface.component[tip.vertex]];
+  };
+  tips.erase(std::remove_if(tips.begin(), tips.end(), is_corner), tips.end());
+}
+
+}  // namespace detail
+
 MSPSKEL_INLINE std::vector<LimbTip> find_limb_tips(const SurfaceSnapshot& surface,
                                                    const BoundingVolumeHierarchy& solid,
                                                    const VertexSlices& slices, const LimbOptions& options,
@@ -281,13 +182,18 @@ MSPSKEL_INLINE std::vector<LimbTip> find_limb_tips(const SurfaceSnapshot& surfac
   const SurfaceWays ways(surface);
   const auto middle = detail::middle_of_components(surface, ways, solid, slices);
   const std::vector<double> distance = inner_distances(surface, ways, solid, middle, execution);
-  std::vector<LimbTip> tips = detail::LimbTipSearch(surface, slices, options, distance).run();
+  const std::vector<detail::FoundLimb> limbs =
+      detail::LimbTipSearch(surface, solid, slices, options, distance).run();
+  std::vector<LimbTip> tips;
+  for (const detail::FoundLimb& limb : limbs) tips.push_back(limb.tip);
   // Where few vertices make the end, their mean lies on the surface but for rounding.
   constexpr double kLeastClearance = 0.05;  // half widths
   for (LimbTip& tip : tips)
     if (!solid.inside(tip.target) || solid.distance(tip.target) < kLeastClearance * tip.measures.half_width)
       tip.target = surface.position[tip.vertex];
-  drop_tips_in_walls(surface, solid, find_shells(surface, solid, slices), tips);
+  const std::vector<bool> shells = find_shells(surface, solid, slices);
+  drop_tips_in_walls(surface, solid, shells, tips);
+  detail::add_body_ends(surface, shells, detail::BodyEnds(surface, solid, limbs), tips);
   detail::add_longest_ways(surface, ways, distance, tips);
   for (LimbTip& tip : tips) tip.position = surface.position[tip.vertex];
   return tips;

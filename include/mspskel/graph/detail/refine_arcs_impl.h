@@ -61,8 +61,11 @@ class ArcRefinement {
     center(draft_);
     prune();
     center(options_.centering);
-    if (drop_spurs() > 0) center(touch_up_);
-    aim_strays();
+    aim_strays();  // before anyone calls a leaf a spur that centring has drawn back
+    if (drop_spurs() > 0) {
+      center(touch_up_);
+      aim_strays();
+    }
     tighten();
     lay();  // straight again: in a block every wall is as near, and centring goes where the noise leads
     lay_paths();

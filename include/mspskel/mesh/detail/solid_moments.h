@@ -24,12 +24,15 @@ struct SolidMoments {
   // Of a solid that has a volume.
   Vector3 centroid() const { return first / volume; }
 
-  // The principal axis whose moment stands apart from the other two by the larger factor.
+  // The axis along the length of a solid that is longer than wide; of others the principal axis whose moment
+  // stands apart from the other two by the larger factor.
   Vector3 axis() const {
     const Vector3 c = centroid();
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(second / volume - c * c.transpose());
     const Vector3 moment = solver.eigenvalues();  // ascending
-    return solver.eigenvectors().col(moment[2] * moment[0] > moment[1] * moment[1] ? 2 : 0);
+    constexpr double kLonger = 1.1;
+    const bool longer = moment[2] > kLonger * kLonger * moment[1];
+    return solver.eigenvectors().col(longer || moment[2] * moment[0] > moment[1] * moment[1] ? 2 : 0);
   }
 };
 
