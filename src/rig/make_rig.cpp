@@ -133,6 +133,40 @@ void smooth(const SurfaceSnapshot& surface, Index rounds, std::vector<Weights>& 
   }
 }
 
+// The ancestor of `joint`, or itself, that hangs on `above`; kNone where it does not hang on it.
+Index child_towards(const Rig& rig, Index above, Index joint) {
+  while (joint != kNone && rig.joints[joint].parent != above) joint = rig.joints[joint].parent;
+  return joint;
+}
+
+// A vertex follows joints of one way from the root only, so that no limb pulls at another. Where several
+// children of a joint pull, the strongest keeps what it has more than the second, and the joint has the rest:
+// halfway between two limbs that is all, so weights stay continuous.
+Weights on_one_path(const Rig& rig, Weights weights) {
+  for (Index here = 0; weights.size() > 1 && here != kNone;) {
+    Weights children;
+    for (const auto& [joint, weight] : weights)
+      if (const Index child = child_towards(rig, here, joint); child != kNone) add(children, child, weight);
+    if (children.empty()) break;
+    std::stable_sort(children.begin(), children.end(),
+                     [](const auto& a, const auto& b) { return a.second > b.second; });
+    const Index strongest = children[0].first;
+    if (children.size() > 1) {
+      const double kept = 1 - children[1].second / children[0].second;
+      Weights settled;
+      for (const auto& [joint, weight] : weights) {
+        const Index child = child_towards(rig, here, joint);
+        const double share = child == kNone ? 1 : child == strongest ? kept : 0;
+        if (share > 0) add(settled, joint, share * weight);
+        if (share < 1) add(settled, here, (1 - share) * weight);
+      }
+      weights = std::move(settled);
+    }
+    here = strongest;
+  }
+  return weights;
+}
+
 std::array<Influence, 4> strongest(Weights weights) {
   std::stable_sort(weights.begin(), weights.end(),
                    [](const auto& a, const auto& b) { return a.second > b.second; });
@@ -183,7 +217,7 @@ Rig make_rig(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton, cons
   for (Index v = 0; v < surface.vertex_count(); ++v)
     if (surface.vertex_halfedge[v] != kNone) weights[v] = of_node[skeleton.node_of_vertex[v]];
   smooth(surface, options.smoothing, weights);
-  for (Weights& w : weights) rig.influences.push_back(strongest(std::move(w)));
+  for (Weights& w : weights) rig.influences.push_back(strongest(on_one_path(rig, std::move(w))));
   return rig;
 }
 

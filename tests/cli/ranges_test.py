@@ -22,6 +22,8 @@ COMPANIONS = {
     "--saturation": ["--bare-edges", "saturation"],
     "--filter-ball": ["--filter"],
     "--limb-vertices": ["--coarse-vertices", "60"],
+    "--parts": ["--segments", "a.seg"],
+    "--joints": ["--bent", "bent.off"],
 }
 # An end that is only a longer computation is tried at this value: the range's end would take minutes.
 SHORTER = {"--slices": "100", "--force-samples": "1000", "--moving-samples": "200", "--starts": "100",

@@ -73,6 +73,15 @@ TEST_CASE("weights are at most four, positive and sum to 1") {
   }
 }
 
+TEST_CASE("a vertex follows joints of one way from the root") {
+  const Rig rig = make_rig(beast().surface, beast().skeleton);
+  for (const auto& influences : rig.influences)
+    for (const Influence& a : influences)
+      for (const Influence& b : influences)
+        if (a.weight > 0 && b.weight > 0)
+          CHECK((hangs_on(rig, a.joint, b.joint) || hangs_on(rig, b.joint, a.joint)));
+}
+
 TEST_CASE("at rest nothing moves; a turned root turns everything") {
   const Rig rig = make_rig(beast().surface, beast().skeleton);
   const double extent = beast().surface.frame.scale;
