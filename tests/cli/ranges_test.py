@@ -22,6 +22,7 @@ COMPANIONS = {
     "--saturation": ["--bare-edges", "saturation"],
     "--filter-ball": ["--filter"],
     "--limb-vertices": ["--coarse-vertices", "60"],
+    "--parts": ["--segments", "parts.seg"],
     "--parts": ["--segments", "a.seg"],
     "--joints": ["--bent", "bent.off"],
 }
