@@ -74,6 +74,7 @@ std::vector<NodeContact> node_contacts(const SurfaceSnapshot& surface, const Cur
     }
   }
   std::vector<NodeContact> contacts;
+  contacts.reserve(length.size());
   for (const auto& [nodes, sum] : length) contacts.push_back({nodes, surface.frame.scale * sum});
   return contacts;
 }
