@@ -17,6 +17,7 @@ class OptionKeywords(TypedDict, total=False):
     components: Union[float, str]
     weld: float
     open: str
+    shells: str
     coarsen: bool
     coarse_vertices: float
     limb_vertices: float

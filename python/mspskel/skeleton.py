@@ -28,8 +28,8 @@ class Skeleton(SkeletorNames, OsteoidNames, MeshPartyNames, Measures, Output):
     failure    with ``keep_failed=True``, why the skeleton is not the mesh's; else empty
 
     Names are skeletor's, osteoid's (kimimaro, cloud-volume) and MeshParty's. Where those have trees, loops are cut as in SWC
-    files: breadth first from the smallest node of each piece. ``swc``, once asked for, is the skeleton: what is changed in it
-    shows everywhere.
+    files: where they are thinnest, and trees run breadth first from the thickest node of each piece. ``swc``, once asked for, is
+    the skeleton: what is changed in it shows everywhere.
     """
 
     def __init__(

@@ -7,7 +7,6 @@
 #include "graph/solids.h"
 #include "mspskel/extract_skeleton.h"
 #include "mspskel/mesh/detail/solid_moments.h"
-#include "mspskel/mesh/detail/solid_moments.h"
 
 using namespace mspskel;
 using namespace mspskel::test;

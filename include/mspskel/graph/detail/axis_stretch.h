@@ -34,24 +34,36 @@ inline std::optional<std::array<Vector3, 2>> longest_stretch(const Vector3& poin
   return longest;
 }
 
+struct FreeDirections {
+  Vector3 sum = Vector3::Zero();
+  int count = 0;
+  double share = 0.0;  // of all directions
+};
+
+// Directions in which nothing lies, evenly over the sphere by the golden angle.
+inline FreeDirections free_directions(const Vector3& point, const BoundingVolumeHierarchy& solid) {
+  constexpr int kRays = 400;
+  FreeDirections found;
+  for (int k = 0; k < kRays; ++k) {
+    const double z = (2 * k + 1.0) / kRays - 1, angle = kPi * (3 - std::sqrt(5.0)) * k;
+    const Vector3 way(std::sqrt(1 - z * z) * std::cos(angle), std::sqrt(1 - z * z) * std::sin(angle), z);
+    if (solid.first_hit(point, way)) continue;
+    found.sum += way;
+    ++found.count;
+  }
+  found.share = static_cast<double>(found.count) / kRays;
+  return found;
+}
+
 // Where a point in a hollow sees out: the mean direction to the rim of the opening, a unit vector. None if
 // there is no opening, or as much of one on the other side.
 inline std::optional<Vector3> opening_direction(const Vector3& point, const BoundingVolumeHierarchy& solid) {
-  constexpr int kRays = 400;
   constexpr double kOneSided = 0.5;  // length of the mean direction; that of a half space
   const auto escapes = [&](const Vector3& way) { return !solid.first_hit(point, way); };
-  Vector3 sum = Vector3::Zero();
-  int free = 0;
-  for (int k = 0; k < kRays; ++k) {  // evenly over the sphere, by the golden angle
-    const double z = (2 * k + 1.0) / kRays - 1, angle = kPi * (3 - std::sqrt(5.0)) * k;
-    const Vector3 way(std::sqrt(1 - z * z) * std::cos(angle), std::sqrt(1 - z * z) * std::sin(angle), z);
-    if (!escapes(way)) continue;
-    sum += way;
-    ++free;
-  }
-  if (free == 0 || !(sum.norm() >= kOneSided * free)) return std::nullopt;
+  const FreeDirections free = free_directions(point, solid);
+  if (free.count == 0 || !(free.sum.norm() >= kOneSided * free.count)) return std::nullopt;
   // The rays are too few to find its middle by; the rim all round is exact, whichever way the model lies.
-  Vector3 middle = sum.normalized();
+  Vector3 middle = free.sum.normalized();
   constexpr int kRounds = 3, kRim = 32, kHalvings = 12;
   for (int round = 0; round < kRounds && escapes(middle); ++round) {
     const Vector3 u = middle.unitOrthogonal(), w = middle.cross(u);
@@ -81,6 +93,15 @@ inline bool is_well_inside(const Vector3& x, const BoundingVolumeHierarchy& soli
   if (!(nearest.distance > 0)) return false;
   const auto opposite = solid.first_hit(x, x - nearest.point);
   return opposite && nearest.distance >= kLeast * opposite->distance;
+}
+
+// A cup, a vase: its middle is air, and most ways from there meet the wall; beside a bent sheet half are
+// free.
+inline bool is_vessel(const SolidMoments& moments, const BoundingVolumeHierarchy& solid) {
+  constexpr double kMost = 0.4;
+  if (!moments.has_volume() || is_well_inside(moments.centroid(), solid)) return false;
+  const FreeDirections free = free_directions(moments.centroid(), solid);
+  return free.count > 0 && free.share < kMost;
 }
 
 // The axis of a solid as far as it runs inside. Of a block, whose centroid lies inside, it is the principal

@@ -5,6 +5,7 @@
 #include "mspskel/base/linkage.h"
 #include "mspskel/graph/aim_ends.h"
 #include "mspskel/graph/complete_limbs.h"
+#include "mspskel/graph/detail/axis_stretch.h"
 #include "mspskel/graph/detail/inner_graph.h"
 #include "mspskel/graph/lay_axes.h"
 #include "mspskel/graph/lay_longest_paths.h"
@@ -112,9 +113,13 @@ class ArcRefinement {
     keep_type("laying of axes");
   }
   void lay_paths() {
-    // In the wall of a cup any path is as good as another: what its axis has of the solid stays.
+    // In the wall of a vessel any path is as good as another: what its axis has of the solid stays.
     const std::vector<bool> shells = find_shells(surface_, solid_, slices_);
-    if (std::find(shells.begin(), shells.end(), false) == shells.end()) return;
+    const std::vector<SolidMoments> moments = solid_moments(surface_);
+    bool only_vessels = true;
+    for (std::size_t c = 0; c < shells.size(); ++c)
+      only_vessels = only_vessels && shells[c] && is_vessel(moments[c], solid_);
+    if (only_vessels) return;
     counts_.paths = lay_longest_paths(graph_, surface_, solid_, inner_, options_.centering.step);
     keep_type("laying of paths");
   }
