@@ -16,8 +16,8 @@ namespace mspskel::cli {
 struct ExtractSettings {
   std::string input;
   std::vector<std::string> outputs;
-  std::string report;    // empty: none
-  std::string stages;    // folder; empty: none
+  std::string report;  // empty: none
+  std::string stages;  // folder; empty: none
   RootOption root;
   std::string segments;  // file of the parts; empty: none
   SegmentOptions segmentation;
