@@ -126,11 +126,6 @@ void segment(const ExtractSettings& settings, Extraction& extraction) {
                               ": parts are those of the mended surface's faces; --write-mesh writes it");
 }
 
-bool needs_rig(const ExtractSettings& settings) {
-  return settings.rig || !settings.bent.empty() ||
-         std::any_of(settings.outputs.begin(), settings.outputs.end(), is_rig_text);
-}
-
 void add_rig(const ExtractSettings& settings, Extraction& extraction) {
   const Stopwatch rigging;
   ExtractResult& result = extraction.made.result;
@@ -156,7 +151,7 @@ Extraction extract_and_check(const ExtractSettings& settings, const Cancellation
   add_losses(settings, extraction.made.result);
   extraction.reported = !settings.report.empty() || settings.verbose || writes_report(settings);
   if (!settings.segments.empty()) segment(settings, extraction);
-  if (needs_rig(settings)) add_rig(settings, extraction);
+  if (settings.needs_rig()) add_rig(settings, extraction);
   certify(extraction.made, extraction.reported ? CertificateDepth::kFull : CertificateDepth::kVerdict);
   if (extraction.reported) extraction.facts = facts_of(settings.input, extraction.made);
   return extraction;

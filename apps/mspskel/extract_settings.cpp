@@ -48,10 +48,8 @@ void add_rig_options(CommandLine& line, ExtractSettings& settings) {
 void check_shape_options(const CommandLine& line, const ExtractSettings& settings) {
   if (line.given("--parts") && settings.segments.empty())
     throw UsageError("--parts says how many parts --segments FILE is to have, which is missing");
-  const bool rigged = settings.rig || !settings.bent.empty() ||
-                      std::any_of(settings.outputs.begin(), settings.outputs.end(), is_rig_text);
   for (const char* option : {"--joints", "--pose"})
-    if (line.given(option) && !rigged)
+    if (line.given(option) && !settings.needs_rig())
       throw UsageError(std::string(option) +
                        " is about a rig: add --rig and an OUT.glb, an OUT.rig.txt or --bent FILE");
   if (settings.rig && std::none_of(settings.outputs.begin(), settings.outputs.end(), is_glb))
@@ -59,6 +57,10 @@ void check_shape_options(const CommandLine& line, const ExtractSettings& setting
 }
 
 }  // namespace
+
+bool ExtractSettings::needs_rig() const {
+  return rig || !bent.empty() || std::any_of(outputs.begin(), outputs.end(), is_rig_text);
+}
 
 bool parse_extract_settings(const std::vector<std::string>& arguments, ExtractSettings& settings) {
   CommandLine line("IN [OUT...] [options]", kDescription, kFooter);

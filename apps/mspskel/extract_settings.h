@@ -31,6 +31,7 @@ struct ExtractSettings {
   RunOptions run;
   Json values;  // of all options, for the report
 
+  bool needs_rig() const;
   Verbosity verbosity() const {
     return quiet ? Verbosity::kQuiet : verbose ? Verbosity::kVerbose : Verbosity::kNormal;
   }

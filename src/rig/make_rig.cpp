@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "mspskel/base/error.h"
+#include "mspskel/graph/check_surface_map.h"
 #include "name_joints.h"
 #include "skeleton_tree.h"
 
@@ -27,14 +28,7 @@ void add(Weights& weights, Index joint, double weight) {
 
 void check_fit(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton) {
   if (skeleton.nodes.empty()) throw UsageError("a rig needs a skeleton: this one has no nodes");
-  if (static_cast<Index>(skeleton.node_of_vertex.size()) != surface.vertex_count())
-    throw UsageError("the skeleton's surface map has " + std::to_string(skeleton.node_of_vertex.size()) +
-                     " entries for " + std::to_string(surface.vertex_count()) + " vertices");
-  for (Index v = 0; v < surface.vertex_count(); ++v) {
-    const Index n = skeleton.node_of_vertex[v];
-    if (surface.vertex_halfedge[v] != kNone && (n < 0 || n >= static_cast<Index>(skeleton.nodes.size())))
-      throw UsageError("vertex " + std::to_string(v) + " maps to no node of the skeleton");
-  }
+  check_surface_map(surface, skeleton);
 }
 
 class Skinning {

@@ -5,20 +5,10 @@
 #include <numeric>
 
 #include "mspskel/base/error.h"
+#include "mspskel/graph/check_surface_map.h"
 
 namespace mspskel {
 namespace {
-
-void check_map(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton) {
-  if (static_cast<Index>(skeleton.node_of_vertex.size()) != surface.vertex_count())
-    throw UsageError("the skeleton's surface map has " + std::to_string(skeleton.node_of_vertex.size()) +
-                     " entries for " + std::to_string(surface.vertex_count()) + " vertices");
-  for (Index v = 0; v < surface.vertex_count(); ++v) {
-    const Index n = skeleton.node_of_vertex[v];
-    if (surface.vertex_halfedge[v] != kNone && (n < 0 || n >= static_cast<Index>(skeleton.nodes.size())))
-      throw UsageError("vertex " + std::to_string(v) + " maps to no node of the skeleton");
-  }
-}
 
 // Of each face: what two of its corners agree on, else its first corner's part.
 std::vector<Index> carry_to_faces(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton,
@@ -53,7 +43,7 @@ void number_by_area(const SurfaceSnapshot& surface, Index count, Segmentation& s
 }  // namespace
 
 std::vector<NodeContact> node_contacts(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton) {
-  check_map(surface, skeleton);
+  check_surface_map(surface, skeleton);
   std::map<std::array<Index, 2>, double> length;
   for (Index f = 0; f < surface.face_count(); ++f) {
     std::array<Index, 3> node{};
