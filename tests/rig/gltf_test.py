@@ -9,7 +9,10 @@ import subprocess
 import sys
 import tempfile
 
-VALIDATOR = "gltf-validator@2.0.0-dev.3.10"
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
+import npm_package  # noqa: E402
+
+VALIDATOR = ("gltf-validator", "2.0.0-dev.3.10")
 SAMPLES = ["quadruped", "torus", "capsule", "chain"]
 MESHES = ["models/horse.off", "models/hand.off", "models/octopus.off", "psb/off/10.off", "psb/off/390.off", "wild/body.obj",
           "wild/character_open.obj"]
@@ -35,16 +38,12 @@ def skip(why):
 
 def main():
     program, cache, shared = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
-    node, npm = shutil.which("node"), shutil.which("npm")
+    node = shutil.which("node")
     if not node:
         return skip("no node")
-    if not (cache / "node_modules" / "gltf-validator").is_dir():
-        if not npm:
-            return skip("no npm to install gltf-validator with")
-        cache.mkdir(parents=True, exist_ok=True)
-        install = [npm, "install", "--prefix", str(cache), "--ignore-scripts", "--no-audit", "--no-fund", VALIDATOR]
-        if subprocess.run(install, capture_output=True, timeout=120).returncode != 0:
-            return skip("npm could not install gltf-validator")
+    why = npm_package.missing(cache, *VALIDATOR)
+    if why:
+        return skip(why)
     (cache / "validate.cjs").write_text(SCRIPT, encoding="ascii")
     with tempfile.TemporaryDirectory(prefix="mspskel-gltf-") as folder:
         meshes, files = [], []

@@ -9,8 +9,11 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
+import npm_package  # noqa: E402
+
 SKIP = 77
-PLAYWRIGHT = "playwright-core@1.65.1"
+PLAYWRIGHT = ("playwright-core", "1.65.1")
 
 
 def find(*names):
@@ -24,16 +27,12 @@ def skip(why):
 
 def main():
     program, source, cache = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
-    chromium, node, npm = find("chromium", "chromium-browser"), find("node", "nodejs"), find("npm")
+    chromium, node = find("chromium", "chromium-browser"), find("node", "nodejs")
     if not chromium or not node:
         return skip("no chromium or no node")
-    if not (cache / "node_modules" / "playwright-core").is_dir():
-        if not npm:
-            return skip("no npm to install playwright-core with")
-        cache.mkdir(parents=True, exist_ok=True)
-        install = [npm, "install", "--prefix", str(cache), "--ignore-scripts", "--no-audit", "--no-fund", PLAYWRIGHT]
-        if subprocess.run(install, capture_output=True, timeout=120).returncode != 0:
-            return skip("npm could not install playwright-core")
+    why = npm_package.missing(cache, *PLAYWRIGHT)
+    if why:
+        return skip(why)
     with tempfile.TemporaryDirectory(prefix="mspskel-page-") as folder:
         page = pathlib.Path(folder) / "quadruped.html"
         subprocess.run([program, str(source / "data" / "quadruped.off"), str(page), "-q"], check=True, timeout=120)
