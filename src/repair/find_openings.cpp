@@ -18,8 +18,9 @@ bool is_tube_end(const std::vector<Vector3>& points, const FaceSet& faces, const
   reach += loop_radius(shape);
 
   std::vector<Index> reached;
+  const auto walls = static_cast<Index>(visited.size());
   const auto visit = [&](Index f) {
-    if (visited[f]) return;
+    if (f >= walls || visited[f]) return;
     visited[f] = 1;
     reached.push_back(f);
   };
