@@ -10,6 +10,7 @@
 #include "mspskel/base/counted.h"
 #include "mspskel/base/error.h"
 #include "mspskel/graph/check_skeleton.h"
+#include "mspskel/graph/coverage.h"
 #include "mspskel/io/atomic_file.h"
 #include "mspskel/io/read_mesh.h"
 #include "mspskel/io/read_skeleton.h"
@@ -21,7 +22,8 @@
 namespace mspskel::cli {
 namespace {
 
-void print(const SkeletonChecks& c, const TopologyCertificate& certificate) {
+void print(const SkeletonChecks& c, const TopologyCertificate& certificate,
+           const std::vector<UncoveredPart>& uncovered) {
   std::printf("topology     %s: %s and %s on a surface of %s and genus %d\n", c.topology ? "right" : "WRONG",
               counted(c.b0, "piece").c_str(), counted(c.b1, "cycle").c_str(),
               counted(c.components, "component").c_str(), c.genus);
@@ -32,6 +34,11 @@ void print(const SkeletonChecks& c, const TopologyCertificate& certificate) {
   std::printf("off centre   mean %.4f, 90th percentile %.4f (0: centred, 1: at the wall)\n",
               c.off_centre_mean, c.off_centre_p90);
   std::printf("cover        mean %.4f, 95th percentile %.4f of the diagonal\n", c.cover_mean, c.cover_p95);
+  if (uncovered.empty())
+    std::printf("coverage     every part of %.3g widths has an arc\n", kMissedWidths);
+  for (const UncoveredPart& part : uncovered)
+    std::printf("coverage     NO ARC in a part of %.2g widths at %.6g %.6g %.6g\n", part.widths, part.position.x(),
+                part.position.y(), part.position.z());
   std::printf("graph        %s, %s, %s, %s, %s\n", counted(c.nodes, "node").c_str(),
               counted(c.edges, "edge").c_str(), counted(c.leaves, "leaf", "leaves").c_str(),
               counted(c.joints, "joint").c_str(), counted(c.spurs, "spur").c_str());
@@ -71,14 +78,15 @@ int check_command(const std::vector<std::string>& arguments) {
   const SkeletonChecks checks = check_skeleton(surface, solid, skeleton, execution);
   const TopologyCertificate certificate =
       certify(surface, compute_volume_cocycles(surface), solid, skeleton, CertificateDepth::kFull);
-  const Verdict verdict = judge(surface, certificate);
+  const std::vector<UncoveredPart> uncovered = find_uncovered_parts(surface, solid, skeleton, 0.015, execution);
+  const Verdict verdict = judge(surface, certificate, uncovered);
   const bool inside = least_inside < 1 ? checks.inside >= least_inside : checks.contained;
-  if (!json_path.empty()) write_file_atomically(json_path, report_text(checks_json(checks, certificate)));
-  if (!quiet && json_path != "-") print(checks, certificate);
+  if (!json_path.empty()) write_file_atomically(json_path, report_text(checks_json(checks, certificate, uncovered)));
+  if (!quiet && json_path != "-") print(checks, certificate, uncovered);
   if (!verdict.failure.empty()) throw NoSkeletonError(verdict.failure);
   if (inside) return 0;
-  throw NoSkeletonError(verdict.warnings.empty() ? "the skeleton leaves the solid"
-                                                 : verdict.warnings.front());
+  throw NoSkeletonError(certificate.edges_not_inside > 0 ? verdict.warnings.front()
+                                                         : "the skeleton leaves the solid");
 }
 
 }  // namespace mspskel::cli

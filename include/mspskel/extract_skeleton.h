@@ -19,6 +19,7 @@
 #include "mspskel/graph/refine_arcs.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/mesh/coarsen_surface.h"
+#include "mspskel/mesh/subdivide_surface.h"
 #include "mspskel/slice/cone_refinement.h"
 #include "mspskel/slice/plane_search.h"
 #include "mspskel/slice/slice_error.h"
@@ -35,10 +36,13 @@ enum class SliceMethod {
 
 struct ExtractOptions {
   Mode mode = Mode::kDefault;
-  // Slices, skeletal points and the collapse run on a coarser surface where the input has more vertices than
-  // this one is to have; arcs are centred in the input's solid, and values are carried over to its vertices.
+  // The stages walk on a surface as fine as a skeleton needs. Where the input has more vertices, slices,
+  // skeletal points and the collapse run on a coarser one; arcs are centred in the input's solid, and values
+  // are carried over to its vertices. Where it has fewer and long edges, all runs on one with those edges cut,
+  // and the input gets what its own vertices have there.
   bool coarsen = true;
   CoarseningOptions coarsening;
+  SubdivisionOptions subdivision;
   // Limbs are told on a surface of so many vertices where the input is finer; [4, 2^31). With no more than
   // coarsening.vertices, on that one.
   Index limb_vertices = 4000;

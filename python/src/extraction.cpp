@@ -117,7 +117,8 @@ std::string checks_text(const Extraction& self, const CurveSkeleton& skeleton) {
   const SkeletonChecks checks = check_skeleton(result.surface, *result.solid, own);
   const TopologyCertificate certificate =
       cli::certify(result.surface, result.cocycles, *result.solid, own, cli::CertificateDepth::kFull);
-  return cli::report_text(cli::checks_json(checks, certificate));
+  return cli::report_text(
+      cli::checks_json(checks, certificate, find_uncovered_parts(result.surface, *result.solid, own)));
 }
 
 std::string facts_text(Extraction& self) {

@@ -34,14 +34,15 @@ void certify(CheckedExtraction& made, CertificateDepth depth) {
   ExtractResult& result = made.result;
   if (!result.solid) result.solid = std::make_shared<const BoundingVolumeHierarchy>(result.surface);
   made.certificate = certify(result.surface, result.cocycles, *result.solid, result.skeleton, depth);
+  made.uncovered = find_uncovered_parts(result.surface, *result.solid, result.skeleton);
   result.seconds.emplace_back("checks", checking.seconds());
-  Verdict verdict = judge(result.surface, made.certificate);
+  Verdict verdict = judge(result.surface, made.certificate, made.uncovered);
   result.warnings.insert(result.warnings.end(), verdict.warnings.begin(), verdict.warnings.end());
   made.failure = std::move(verdict.failure);
 }
 
 Json facts_of(const std::string& file, const CheckedExtraction& made) {
-  Json facts = make_report(file, made.result, made.certificate);
+  Json facts = make_report(file, made.result, made.certificate, made.uncovered);
   facts["repair"] = repair_facts(made.input);
   return facts;
 }

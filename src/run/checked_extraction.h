@@ -2,10 +2,12 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "certificate.h"
 #include "mesh_input.h"
 #include "mspskel/extract_skeleton.h"
+#include "mspskel/graph/coverage.h"
 #include "report.h"
 
 namespace mspskel::cli {
@@ -14,6 +16,7 @@ struct CheckedExtraction {
   MeshInput input;
   ExtractResult result;
   TopologyCertificate certificate;
+  std::vector<UncoveredPart> uncovered;
   std::string failure;  // of the certificate, a sentence; empty: none
 };
 
@@ -21,7 +24,7 @@ struct CheckedExtraction {
 // Throws as extract_skeleton does.
 CheckedExtraction extract_from(MeshInput input, const ExtractOptions& options);
 
-// Fills in certificate and failure, adds what they warn of, and the seconds that it took.
+// Fills in certificate, uncovered parts and failure, adds what they warn of, and the seconds that it took.
 void certify(CheckedExtraction& made, CertificateDepth depth);
 
 // make_report with what mending did.

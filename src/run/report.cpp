@@ -71,11 +71,23 @@ Json stage_seconds(const ExtractResult& result, const ProgramSeconds& program) {
   return seconds;
 }
 
+Json coverage_json(const std::vector<UncoveredPart>& uncovered) {
+  Json parts = Json::array();
+  for (const UncoveredPart& part : uncovered)
+    parts.push_back({{"vertex", part.vertex},
+                     {"position", {part.position.x(), part.position.y(), part.position.z()}},
+                     {"depth", part.depth},
+                     {"widths", part.widths}});
+  return {{"uncovered", parts}};
+}
+
 }  // namespace
 
 Json make_report(const std::string& file, const ExtractResult& result,
-                 const TopologyCertificate& certificate) {
+                 const TopologyCertificate& certificate, const std::vector<UncoveredPart>& uncovered) {
   const GraphCounts graph = count_graph(result.skeleton);
+  Json checks = certificate_json(certificate);
+  checks["coverage"] = coverage_json(uncovered);
   return {{"input", input_facts(file, result)},
           {"counts", work_counts(result)},
           {"skeleton",
@@ -85,7 +97,7 @@ Json make_report(const std::string& file, const ExtractResult& result,
             {"cycles", graph.cycles},
             {"leaves", graph.leaves},
             {"length", graph.length}}},
-          {"checks", certificate_json(certificate)},
+          {"checks", checks},
           {"warnings", result.warnings}};
 }
 
@@ -102,9 +114,11 @@ Json with_costs(const Json& report, const Json& options, const ExtractResult& re
           {"warnings", report["warnings"]}};
 }
 
-Json checks_json(const SkeletonChecks& checks, const TopologyCertificate& certificate) {
+Json checks_json(const SkeletonChecks& checks, const TopologyCertificate& certificate,
+                 const std::vector<UncoveredPart>& uncovered) {
   return Json{{"topology", checks.topology},
               {"certificate", certificate_json(certificate)},
+              {"coverage", coverage_json(uncovered)},
               {"b0", checks.b0},
               {"b1", checks.b1},
               {"components", checks.components},

@@ -7,6 +7,7 @@
 #include "mspskel/collapse/topology_certificate.h"
 #include "mspskel/extract_skeleton.h"
 #include "mspskel/graph/check_skeleton.h"
+#include "mspskel/graph/coverage.h"
 
 namespace mspskel::cli {
 
@@ -20,14 +21,15 @@ struct ProgramSeconds {
 // What was found, the same on every run: input, counts, skeleton, checks, warnings. `file` is the mesh's; the
 // checks are the certificate.
 Json make_report(const std::string& file, const ExtractResult& result,
-                 const TopologyCertificate& certificate);
+                 const TopologyCertificate& certificate, const std::vector<UncoveredPart>& uncovered);
 
 // With what differs from run to run: the options' values, seconds, peak memory.
 Json with_costs(const Json& report, const Json& options, const ExtractResult& result,
                 const ProgramSeconds& seconds);
 
 // What `check` found.
-Json checks_json(const SkeletonChecks& checks, const TopologyCertificate& certificate);
+Json checks_json(const SkeletonChecks& checks, const TopologyCertificate& certificate,
+                 const std::vector<UncoveredPart>& uncovered);
 
 // The JSON text, indented by so many blanks, or on one line if negative. Paths that are not UTF-8 get
 // replacement characters.

@@ -7,8 +7,7 @@
 namespace mspskel::cli {
 namespace {
 
-std::string place(const SurfaceSnapshot& surface, const Vector3& normalised) {
-  const Vector3 x = surface.frame.to_model(normalised);
+std::string place(const Vector3& x) {
   char text[96];
   std::snprintf(text, sizeof text, "%.6g %.6g %.6g", x.x(), x.y(), x.z());
   return text;
@@ -19,15 +18,25 @@ std::string what_is_outside(const SurfaceSnapshot& surface, const TopologyCertif
   std::snprintf(share, sizeof share, "%.2g %%", 100 * (1 - certificate.inside));
   std::string text = share + std::string(" of the skeleton's length is outside the solid, on ") +
                      counted(certificate.edges_not_inside, "edge");
-  if (certificate.outside_at) text += ", first at " + place(surface, *certificate.outside_at);
+  if (certificate.outside_at) text += ", first at " + place(surface.frame.to_model(*certificate.outside_at));
   return text;
+}
+
+std::string what_is_uncovered(const std::vector<UncoveredPart>& parts) {
+  char widths[32];
+  std::snprintf(widths, sizeof widths, "%.2g", parts.front().widths);
+  const std::string largest = "a part of " + std::string(widths) + " widths at " + place(parts.front().position);
+  if (parts.size() == 1) return largest + " has no arc";
+  return counted(static_cast<Index>(parts.size()), "part") + " have no arc, the longest " + largest;
 }
 
 }  // namespace
 
-Verdict judge(const SurfaceSnapshot& surface, const TopologyCertificate& certificate) {
+Verdict judge(const SurfaceSnapshot& surface, const TopologyCertificate& certificate,
+              const std::vector<UncoveredPart>& uncovered) {
   Verdict verdict;
   if (certificate.edges_not_inside > 0) verdict.warnings.push_back(what_is_outside(surface, certificate));
+  if (!uncovered.empty()) verdict.warnings.push_back(what_is_uncovered(uncovered));
   if (certificate.verdict == TopologyVerdict::kFailed)
     verdict.failure = "the skeleton's topology is not the solid's: " + certificate.reason;
   return verdict;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "certificate.h"
+#include "mspskel/graph/coverage.h"
 
 namespace mspskel::cli {
 
@@ -15,6 +16,7 @@ struct Verdict {
 };
 
 // `surface` is what was certified; places in the sentences are in model units.
-Verdict judge(const SurfaceSnapshot& surface, const TopologyCertificate& certificate);
+Verdict judge(const SurfaceSnapshot& surface, const TopologyCertificate& certificate,
+              const std::vector<UncoveredPart>& uncovered);
 
 }  // namespace mspskel::cli

@@ -95,7 +95,7 @@ TEST_CASE("Random graphs are routed inside, and every stage keeps them there, wi
       CHECK(spur_count(graph, solid.hierarchy) == 0);
       center_arcs(graph, solid.hierarchy, coarse);
       check("centring again");
-      complete_limbs(graph, solid.surface, solid.hierarchy, slices, no_tips, {}, coarse.step);
+      complete_limbs(graph, solid.surface, solid.hierarchy, no_tips, {}, coarse.step);
       check("completion of limbs");
       subdivide(graph, 0.01);
       check("subdivision");
@@ -363,11 +363,11 @@ TEST_CASE("A limb without an arc gets one, and nothing is added where all have t
   const VertexSlices slices = solid.slices();
   std::vector<LimbTip> tips = tripod_tips(solid);
   ArcGraph whole = tripod_arcs(solid, 0.97);
-  CHECK(complete_limbs(whole, solid.surface, solid.hierarchy, slices, tips, {}, 0.01) == 0);
+  CHECK(complete_limbs(whole, solid.surface, solid.hierarchy, tips, {}, 0.01) == 0);
   ArcGraph graph = whole;
   remove_leaf_arc(graph, 2, 0);
   dissolve_through_hubs(graph);
-  CHECK(complete_limbs(graph, solid.surface, solid.hierarchy, slices, tips, {}, 0.01) == 1);
+  CHECK(complete_limbs(graph, solid.surface, solid.hierarchy, tips, {}, 0.01) == 1);
   CHECK(leaf_count(graph) == 3);
   CHECK(type_of(graph) == GraphType{1, 0});
   CHECK(arcs_meet_hubs(graph));
@@ -396,8 +396,8 @@ TEST_CASE("What no arc comes near gets an arc and a tip, in a shape with limbs")
   REQUIRE(tips.size() == 3);
   ArcGraph limbless = graph;
   std::vector<LimbTip> none;
-  CHECK(complete_limbs(limbless, solid.surface, solid.hierarchy, solid.slices(), none, {}, 0.01) == 0);
-  CHECK(complete_limbs(graph, solid.surface, solid.hierarchy, solid.slices(), tips, {}, 0.01) == 1);
+  CHECK(complete_limbs(limbless, solid.surface, solid.hierarchy, none, {}, 0.01) == 0);
+  CHECK(complete_limbs(graph, solid.surface, solid.hierarchy, tips, {}, 0.01) == 1);
   CHECK(leaf_count(graph) == 4);
   REQUIRE(tips.size() == 4);
   CHECK(is_horn(tips.back()));
@@ -424,7 +424,7 @@ TEST_CASE("A leaning horn that no arc comes near is reached to its tip") {
     line(graph, 0, 1, count);
     map_to_nearest(graph, solid.surface.position);
     std::vector<LimbTip> found = tips;
-    CHECK(complete_limbs(graph, solid.surface, solid.hierarchy, solid.slices(), found, {}, 0.008) == 1);
+    CHECK(complete_limbs(graph, solid.surface, solid.hierarchy, found, {}, 0.008) == 1);
     CHECK(of_horn(found.back()));
     CHECK((solid.model(graph.hub_position.back()) - leaning.nodes[3].position).norm() < 0.3);
   }
@@ -438,7 +438,7 @@ TEST_CASE("Vertices without faces are no limb's") {
   ArcGraph graph = tripod_arcs(solid, 0.97);
   graph.arc_of_vertex.back() = graph.hub_of_vertex.back() = kNone;
   std::vector<LimbTip> tips = tripod_tips(solid);
-  CHECK(complete_limbs(graph, solid.surface, solid.hierarchy, solid.slices(), tips, {}, 0.01) == 0);
+  CHECK(complete_limbs(graph, solid.surface, solid.hierarchy, tips, {}, 0.01) == 0);
 }
 
 TEST_CASE("No place is completed twice") {
@@ -455,7 +455,7 @@ TEST_CASE("No place is completed twice") {
     LimbOptions lenient;
     lenient.slenderness = 0.2;
     std::vector<LimbTip> tips = find_limb_tips(solid.surface, solid.hierarchy, solid.slices(), lenient);
-    complete_limbs(graph, solid.surface, solid.hierarchy, solid.slices(), tips, lenient, 0.01);
+    complete_limbs(graph, solid.surface, solid.hierarchy, tips, lenient, 0.01);
     const auto at = graph.incidence();
     std::vector<Vector3> ends;
     for (Index h = 2; h < graph.hub_count(); ++h)

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <memory>
+#include <numeric>
 #include <optional>
 
 #include "mspskel/base/counted.h"
@@ -33,6 +34,14 @@ class StageClock {
   std::vector<std::pair<std::string, double>>& seconds_;
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
+
+// Whether some component has fewer vertices than it may be given.
+inline bool may_be_subdivided(const SurfaceSnapshot& surface, const SubdivisionOptions& options) {
+  std::vector<Index> count(static_cast<std::size_t>(surface.component_count), 0);
+  for (const Index c : surface.component)
+    if (c != kNone) ++count[c];
+  return std::any_of(count.begin(), count.end(), [&](Index n) { return n < options.vertices; });
+}
 
 inline void run_slice_stages(const SliceTracer& tracer, const ExtractOptions& options, ExtractResult& result,
                              StageClock& clock) {
@@ -167,21 +176,29 @@ inline void run_collapse_stages(const SurfaceSnapshot& shells, const SurfaceSnap
   clock.lap("filter");
 }
 
-// What is known of the coarse vertices holds for the input vertices that merged into them.
-inline void carry_over(ExtractResult& result, ArcGraph& arcs) {
-  const std::vector<Index>& from = result.coarse->coarse_vertex;
-  result.initial_slices = carried_over(result.initial_slices, from);
-  result.slices = carried_over(result.slices, from);
-  SkeletonMesh& mesh = result.skeleton_mesh;
+// Skeletal points of another surface for the vertices of this one, each from its vertex there.
+inline void carry_over(SkeletonMesh& mesh, const SurfaceSnapshot& surface, const std::vector<Index>& from) {
   mesh.position = carried_over(mesh.position, from, Vector3(Vector3::Zero()));
   mesh.perimeter = carried_over(mesh.perimeter, from, 0.0);
   mesh.normal = carried_over(mesh.normal, from, Vector3(Vector3::Zero()));
   mesh.error = carried_over(mesh.error, from, 1.0);
   mesh.valid = carried_over(mesh.valid, from, std::uint8_t{0});
-  mesh.area = result.surface.vertex_area;
-  result.collapsed.node_of_vertex = carried_over(result.collapsed.node_of_vertex, from, kNone);
-  std::vector<CocycleLabel>& label = result.collapsed.label_of_vertex;
+  mesh.area = surface.vertex_area;
+}
+
+inline void carry_over(CollapsedSkeleton& collapsed, const std::vector<Index>& from) {
+  collapsed.node_of_vertex = carried_over(collapsed.node_of_vertex, from, kNone);
+  std::vector<CocycleLabel>& label = collapsed.label_of_vertex;
   if (!label.empty()) label = carried_over(label, from, CocycleLabel{});  // filtered skeletons have none
+}
+
+// What is known of the coarse vertices holds for the input vertices that merged into them.
+inline void carry_over(ExtractResult& result, ArcGraph& arcs) {
+  const std::vector<Index>& from = result.coarse->coarse_vertex;
+  result.initial_slices = carried_over(result.initial_slices, from);
+  result.slices = carried_over(result.slices, from);
+  carry_over(result.skeleton_mesh, result.surface, from);
+  carry_over(result.collapsed, from);
   if (arcs.arc_of_vertex.empty()) return;
   arcs.arc_of_vertex = carried_over(arcs.arc_of_vertex, from, kNone);
   arcs.hub_of_vertex = carried_over(arcs.hub_of_vertex, from, kNone);
@@ -238,6 +255,7 @@ MSPSKEL_INLINE ExtractOptions thesis_options() {
 
 MSPSKEL_INLINE void validate(const ExtractOptions& options) {
   validate(options.coarsening);
+  validate(options.subdivision);
   if (options.limb_vertices < 4) throw UsageError("limb vertices must be at least 4");
   validate(options.search);
   validate(options.sampling);
@@ -429,14 +447,41 @@ inline ExtractResult extract_componentwise(SurfaceSnapshot surface, const Extrac
   return result;
 }
 
+inline ExtractResult extract_pieces(SurfaceSnapshot surface, const ExtractOptions& options) {
+  return surface.component_count > 1 ? extract_componentwise(std::move(surface), options)
+                                     : extract_component(std::move(surface), nullptr, options);
+}
+
+// What was found on a surface whose first vertices are those of `input`, which it subdivides, as of the input.
+inline void restrict_to_input(SurfaceSnapshot input, const ExtractOptions& options, ExtractResult& result) {
+  std::vector<Index> own(input.position.size());
+  std::iota(own.begin(), own.end(), 0);
+  result.surface = std::move(input);
+  result.solid.reset();
+  result.initial_slices = carried_over(result.initial_slices, own);
+  result.slices = carried_over(result.slices, own);
+  carry_over(result.skeleton_mesh, result.surface, own);
+  carry_over(result.collapsed, own);
+  result.cocycles = compute_volume_cocycles(result.surface, slice_candidates(result.slices), options.cocycles,
+                                            options.execution.progress);
+  result.skeleton.node_of_vertex = carried_over(result.skeleton.node_of_vertex, own, kNone);
+}
+
 }  // namespace detail
 
 MSPSKEL_INLINE ExtractResult extract_skeleton_of_snapshot(SurfaceSnapshot surface,
                                                           const ExtractOptions& options) {
   validate(options);
-  ExtractResult result = surface.component_count > 1
-                             ? detail::extract_componentwise(std::move(surface), options)
-                             : detail::extract_component(std::move(surface), nullptr, options);
+  std::optional<SurfaceSnapshot> fine;
+  if (options.coarsen && detail::may_be_subdivided(surface, options.subdivision))
+    fine = subdivide_surface(surface, options.subdivision, options.execution);
+  ExtractResult result;
+  if (fine && fine->vertex_count() > surface.vertex_count()) {
+    result = detail::extract_pieces(std::move(*fine), options);
+    detail::restrict_to_input(std::move(surface), options, result);
+  } else {
+    result = detail::extract_pieces(std::move(surface), options);
+  }
   detail::collect_warnings(result);
   return result;
 }

@@ -41,21 +41,17 @@ struct LimbMeasures {
   double slenderness = 0.0;
 };
 
-// Digits and the like: where a limb is about as thin as the smallest feature, the triangles decide how long
-// it is, so it has to be longer than others: `depth` smallest features.
-inline bool is_too_thin(const LimbMeasures& m, const LimbOptions& o, double depth) {
-  constexpr double kThin = 1.15;  // half width, in smallest features
-  return m.half_width < kThin * o.smallest && m.depth < depth * o.smallest;
-}
-
 // A limb by its slenderness. Its surface faces itself: inward of the corner of a block is the whole block.
 inline bool is_limb(const LimbMeasures& m, const LimbOptions& o) {
   return m.slenderness >= o.slenderness && m.depth >= 1.4 * m.half_width && m.half_chord <= 2 * m.half_width;
 }
 
+// Slenderness of fingers, in those of limbs.
+inline constexpr double kFinger = 1.6;
+
 // A finger or a toe, beside others of a palm.
 inline bool is_digit(const LimbMeasures& m, const LimbOptions& o) {
-  return m.slenderness >= 1.6 * o.slenderness && m.depth >= 1.6 * o.smallest;
+  return m.slenderness >= kFinger * o.slenderness && m.depth >= 1.6 * o.smallest;
 }
 
 // An ear or a horn: a bump rather than a limb, but much smaller than what carries it. Only in a shape that
@@ -66,15 +62,9 @@ inline bool is_ear(const LimbMeasures& m, const LimbOptions& o) {
          m.slenderness * m.msp_ratio >= 0.65 * o.slenderness && m.depth >= 0.75 * m.half_width;
 }
 
-// A protrusion that no arc comes near, measured without its area: the longer, the less has to tell it from
-// the rest.
-inline bool is_missed_limb(const LimbMeasures& m, const LimbOptions& o) {
-  constexpr double kThinDepth = 9.0;
-  constexpr double kMost = 6.0;  // more says nothing: the smaller the slices, the rougher
-  return m.half_width > 0 && !is_too_thin(m, o, kThinDepth) &&
-         std::min(kMost, m.depth / m.half_width * std::min(m.msp_ratio, 9.0)) * m.depth >=
-             28 * o.slenderness * o.smallest;
-}
+// How slender a part that no arc comes near has to be to get one: as a digit, since the rest of the shape,
+// which the arcs cover, is no part of its measure.
+inline double uncovered_slenderness(const LimbOptions& o) { return kFinger * o.slenderness; }
 
 namespace detail {
 

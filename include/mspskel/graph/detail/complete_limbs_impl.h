@@ -2,86 +2,66 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "mspskel/base/linkage.h"
 #include "mspskel/graph/detail/arc_leaves.h"
 #include "mspskel/graph/detail/arc_sections.h"
 #include "mspskel/graph/detail/graph_points.h"
 #include "mspskel/graph/detail/polyline_ends.h"
+#include "mspskel/graph/detail/slender_parts.h"
 
 namespace mspskel {
 namespace detail {
 
-// What no arc comes near protrudes by more than this many smallest features.
+// What no arc comes near and protrudes less is none, in smallest features.
 inline constexpr double kLeastProtrusion = 3.5;
-
-// A sheet lies far outside all balls whatever the arcs, so nothing there tells a limb.
-inline constexpr double kMostUncovered = 0.15;  // share of the area
-
-// The rim of a tube's flat end lies up to 0.62 radii outside the balls on its axis, a cube's corner 0.73
-// outside the ball in it; neither is a limb.
-inline constexpr double kCorner = 0.75;
-
-// What has less than this share of the evidence before its way is centred has too little afterwards as well.
-inline constexpr double kDoubt = 0.5;
 
 class LimbCompletion {
  public:
   LimbCompletion(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
-                 const VertexSlices& slices, std::vector<LimbTip>& tips, const LimbOptions& options,
+                 std::vector<LimbTip>& tips, const LimbOptions& options,
                  double step, InnerGraph& inner, const Execution& execution)
       : graph_(graph),
         surface_(surface),
         solid_(solid),
-        slices_(slices),
         tips_(tips),
         options_(options),
         step_(step),
         inner_(inner) {
     const ArcBalls balls(graph, solid, execution);
     outside_.assign(surface.position.size(), 0.0);
-    std::vector<std::uint8_t> covered(surface.position.size(), 1);
     parallel_for(
         surface.vertex_count(), "arcs", execution, [] { return 0; },
         [&](Index v, int) {
           const Index own = graph.arc_of_vertex[v];
           if (own == kNone && graph.hub_of_vertex[v] == kNone) return;
           const Vector3& x = surface.position[v];
-          double outside = std::numeric_limits<double>::infinity(), radius = 0;
-          for (Index h = 0; h < graph.hub_count(); ++h) {
-            const double beyond = balls.hub[h].distance_outside(x);
-            if (!graph.hub_alive[h] || beyond >= outside) continue;
-            outside = beyond;
-            radius = balls.hub[h].radius;
-          }
+          double outside = std::numeric_limits<double>::infinity();
+          for (Index h = 0; h < graph.hub_count(); ++h)
+            if (graph.hub_alive[h]) outside = std::min(outside, balls.hub[h].distance_outside(x));
           // The vertex's own arc first: few balls of others are nearer.
-          if (own != kNone) balls.arc[own].find_nearest(x, outside, radius);
-          for (const BallChain& chain : balls.arc) chain.find_nearest(x, outside, radius);
+          if (own != kNone) outside = balls.arc[own].distance_outside(x, kNever, outside);
+          for (const BallChain& chain : balls.arc) outside = chain.distance_outside(x, kNever, outside);
           outside_[v] = outside;
-          covered[v] = outside <= radius;
         });
     hub_component_ = components_of_pieces(graph, surface);
-    find_searched(covered);
   }
 
   Index run() {
     constexpr int kTries = 64;
     Index added = reach_tips();
-    for (std::size_t v = 0; v < outside_.size(); ++v) {
-      const Index c = surface_.component[v];
-      if (c == kNone || !searched_[c]) outside_[v] = std::min(outside_[v], 0.0);
-    }
     for (int i = 0; i < kTries; ++i) {
-      const auto farthest = std::max_element(outside_.begin(), outside_.end());
-      if (!(*farthest > std::max(kLeastProtrusion * options_.smallest, step_))) break;
-      const Index v = static_cast<Index>(farthest - outside_.begin());
-      const double before = *farthest;
-      if (try_limb(v, false)) {
-        tips_.push_back(new_tip(v, before));
+      const std::optional<SlenderPart> part = deepest_part();
+      if (!part) break;
+      const double before = outside_[part->top];
+      LimbTip tip = new_tip(*part);
+      if (try_limb(part->top)) {
+        tips_.push_back(std::move(tip));
         ++added;
       }
       // Tried once, whether or not: an arc may end far from what it was led to.
-      if (outside_[v] > 0.5 * before) dismiss(v);
+      if (outside_[part->top] > 0.5 * before) dismiss(part->top);
     }
     return added;
   }
@@ -105,7 +85,7 @@ class LimbCompletion {
 
   // The end of a body lies in its middle, so the way to it is straight or none.
   bool reach_tip(const LimbTip& tip) {
-    if (tip.kind != TipKind::kBodyEnd) return try_limb(tip.vertex, true);
+    if (tip.kind != TipKind::kBodyEnd) return try_limb(tip.vertex);
     const Index component = surface_.component[tip.vertex];
     const auto own = [&](Index hub) { return hub_component_[hub] == component; };
     for (const auto& [distance, point] :
@@ -120,29 +100,49 @@ class LimbCompletion {
 
   static constexpr double kNever = -std::numeric_limits<double>::infinity();
 
-  // Which components of the surface are searched for more limbs than the tips tell.
-  void find_searched(const std::vector<std::uint8_t>& covered) {
-    const auto count = static_cast<std::size_t>(surface_.component_count);
-    std::vector<double> whole(count, 0.0), bare(count, 0.0);
-    for (std::size_t v = 0; v < covered.size(); ++v) {
-      if (surface_.vertex_halfedge[v] == kNone) continue;
-      whole[surface_.component[v]] += surface_.vertex_area[v];
-      if (!covered[v]) bare[surface_.component[v]] += surface_.vertex_area[v];
-    }
-    searched_ = components_with_limbs(surface_, tips_);
-    for (std::size_t c = 0; c < count; ++c)
-      if (bare[c] > kMostUncovered * whole[c]) searched_[c] = false;
+  // Of the parts that are limbs, measured beyond the balls, the deepest.
+  std::optional<SlenderPart> deepest_part() const {
+    std::vector<Index> beyond;
+    for (Index v = 0; v < surface_.vertex_count(); ++v)
+      if (outside_[v] > 0) beyond.push_back(v);
+    const double least = std::max(kLeastProtrusion * options_.smallest, step_);
+    const std::vector<SlenderPart> parts =
+        slender_parts(surface_, outside_, std::move(beyond), uncovered_slenderness(options_),
+                      [&](Index) { return least; });
+    const auto deepest =
+        std::max_element(parts.begin(), parts.end(), [](const SlenderPart& a, const SlenderPart& b) {
+          return a.depth != b.depth ? a.depth < b.depth : a.top > b.top;
+        });
+    if (deepest == parts.end()) return std::nullopt;
+    return *deepest;
   }
 
-  LimbTip new_tip(Index v, double depth) const {
+  // Its cap and target are as those of limbs, on what hangs together with the top.
+  LimbTip new_tip(const SlenderPart& part) const {
     LimbTip tip;
-    tip.vertex = v;
-    tip.position = tip.target = surface_.position[v];
-    tip.measures.depth = depth;
-    for (Index w = 0; w < surface_.vertex_count(); ++w)
-      if (surface_.component[w] == surface_.component[v] &&
-          (surface_.position[w] - surface_.position[v]).norm() < 0.5 * depth)
+    tip.vertex = part.top;
+    tip.position = surface_.position[part.top];
+    tip.measures.depth = part.depth;
+    tip.measures.half_width = part.radius;
+    tip.measures.slenderness = part.slenderness;
+    const double cap = std::min(0.5 * part.depth, 1.5 * part.radius), end = std::min(cap, kEnd * part.radius);
+    double area = 0;
+    std::vector<std::uint8_t> seen(surface_.position.size(), 0);
+    tip.cap.assign(1, part.top);
+    seen[part.top] = 1;
+    for (std::size_t i = 0; i < tip.cap.size(); ++i) {
+      const Index v = tip.cap[i];
+      if (outside_[part.top] - outside_[v] <= end) {
+        tip.target += surface_.vertex_area[v] * surface_.position[v];
+        area += surface_.vertex_area[v];
+      }
+      for_each_neighbour(surface_, v, [&](Index w) {
+        if (seen[w] || outside_[part.top] - outside_[w] > cap) return;
+        seen[w] = 1;
         tip.cap.push_back(w);
+      });
+    }
+    tip.target /= area;
     return tip;
   }
 
@@ -159,15 +159,12 @@ class LimbCompletion {
   }
 
   // The way from the skeleton to v: straight from the nearest point that sees v, or through the solid.
-  bool find_way(Index v, GraphPoint& start, std::vector<Vector3>& way, bool is_tip) {
+  bool find_way(Index v, GraphPoint& start, std::vector<Vector3>& way) {
     const Vector3& target = surface_.position[v];
     const auto own = [&](Index hub) { return hub_component_[hub] == surface_.component[v]; };
     const auto points =
         nearest_points(graph_, target, own, [&](Index arc) { return own(graph_.arcs[arc].hub[0]); });
-    // Centring seldom halves the ball, so what lies that close to it is not worth a way.
     if (points.empty()) return false;
-    if (!is_tip && outside_[v] < 0.5 * kCorner * solid_.distance(points.front().second.position))
-      return false;
     const auto reaches = [&] {
       return (way.back() - target).norm() <= 2 * std::max(step_, solid_.distance(way.back()));
     };
@@ -198,43 +195,16 @@ class LimbCompletion {
     return way.size() > 2;
   }
 
-  bool try_limb(Index v, bool is_tip) {
+  bool try_limb(Index v) {
     GraphPoint start;
     std::vector<Vector3> way;
-    if (!find_way(v, start, way, is_tip)) return false;
-    if (!is_tip && !deserves_arc(way, v, kDoubt)) return false;
-    // A few rounds of centring with the start held show the limb's true width.
+    if (!find_way(v, start, way)) return false;
+    // A few rounds of centring with the start held.
     way = centred_alone(way, solid_, step_);
-    if (!is_tip && !deserves_arc(way, v, 1.0)) return false;
     if (solid_.segment_crosses(start.position, way.front())) return false;
     way.insert(way.begin(), start.position);
     add(start, way, surface_.component[v]);
     return true;
-  }
-
-  bool deserves_arc(const std::vector<Vector3>& way, Index v, double share) const {
-    const Ball ball{way.front(), solid_.distance(way.front())};
-    LimbOptions options = options_;
-    options.slenderness *= share;
-    return outside_[v] >= share * kCorner * ball.radius && is_missed_limb(measure(way, ball, v), options);
-  }
-
-  LimbMeasures measure(const std::vector<Vector3>& way, const Ball& ball, Index v) const {
-    LimbMeasures m;
-    m.depth = outside_[v];
-    // The part of the way that lies in the limb, or the last three of its edges.
-    std::size_t first = 0;
-    while (first + 3 < way.size() && (way[first + 1] - surface_.position[v]).norm() > 1.2 * m.depth) ++first;
-    const std::vector<Vector3> own(way.begin() + static_cast<std::ptrdiff_t>(first), way.end());
-    const auto [width, perimeter] = lower_section(own, ball, solid_);
-    m.half_width = width;
-    std::vector<double> parents;
-    for (Index w = 0; w < surface_.vertex_count(); ++w)
-      if (slices_.valid[w] && outside_[w] < 0.1 * m.depth &&
-          (surface_.position[w] - ball.centre).norm() < 2 * std::max(ball.radius, width))
-        parents.push_back(slices_.perimeter[w]);
-    if (perimeter > 0) m.msp_ratio = std::max(1.0, value_at_rank(std::move(parents), 0.5) / perimeter);
-    return m;
   }
 
   // Vertices of other components are none of the limb's business, however near they lie.
@@ -259,30 +229,26 @@ class LimbCompletion {
   ArcGraph& graph_;
   const SurfaceSnapshot& surface_;
   const BoundingVolumeHierarchy& solid_;
-  const VertexSlices& slices_;
   std::vector<LimbTip>& tips_;
   const LimbOptions& options_;
   double step_;
   InnerGraph& inner_;
   std::vector<Index> hub_component_;
-  std::vector<bool> searched_;   // per component of the surface
   std::vector<double> outside_;  // per vertex: distance beyond all balls, at most 0 where done with
 };
 
 }  // namespace detail
 
 MSPSKEL_INLINE Index complete_limbs(ArcGraph& graph, const SurfaceSnapshot& surface,
-                                    const BoundingVolumeHierarchy& solid, const VertexSlices& slices,
-                                    std::vector<LimbTip>& tips, const LimbOptions& options, double step,
+                                    const BoundingVolumeHierarchy& solid, std::vector<LimbTip>& tips, const LimbOptions& options, double step,
                                     detail::InnerGraph& inner, const Execution& execution) {
-  return detail::LimbCompletion(graph, surface, solid, slices, tips, options, step, inner, execution).run();
+  return detail::LimbCompletion(graph, surface, solid, tips, options, step, inner, execution).run();
 }
 
 MSPSKEL_INLINE Index complete_limbs(ArcGraph& graph, const SurfaceSnapshot& surface,
-                                    const BoundingVolumeHierarchy& solid, const VertexSlices& slices,
-                                    std::vector<LimbTip>& tips, const LimbOptions& options, double step) {
+                                    const BoundingVolumeHierarchy& solid, std::vector<LimbTip>& tips, const LimbOptions& options, double step) {
   detail::InnerGraph inner(surface, solid);
-  return complete_limbs(graph, surface, solid, slices, tips, options, step, inner);
+  return complete_limbs(graph, surface, solid, tips, options, step, inner);
 }
 
 }  // namespace mspskel

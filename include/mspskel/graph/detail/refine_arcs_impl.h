@@ -144,7 +144,7 @@ class ArcRefinement {
     keep_type("zipping");
   }
   void complete() {
-    counts_.completed = complete_limbs(graph_, surface_, solid_, slices_, tips_, options_.limbs,
+    counts_.completed = complete_limbs(graph_, surface_, solid_, tips_, options_.limbs,
                                        options_.centering.step, inner_, execution_);
     keep_type("completion of limbs");
   }

@@ -1,0 +1,122 @@
+#pragma once
+
+#include <algorithm>
+#include <queue>
+#include <vector>
+
+#include "mspskel/base/linkage.h"
+#include "mspskel/mesh/detail/component_diagonals.h"
+
+namespace mspskel {
+namespace detail {
+
+class EdgeBisection {
+ public:
+  EdgeBisection(const SurfaceSnapshot& surface, const SubdivisionOptions& options)
+      : s_(surface), left_(static_cast<std::size_t>(surface.component_count)) {
+    const Index share = options.all_vertices / std::max<Index>(surface.component_count, 1);
+    std::fill(left_.begin(), left_.end(), std::min(options.vertices, share));
+    for (const Index c : s_.component)
+      if (c != kNone) --left_[c];
+    for (const double diagonal : component_diagonals(surface)) longest_.push_back(options.longest * diagonal);
+  }
+
+  SurfaceSnapshot run(const ProgressCallback& progress) {
+    version_.assign(s_.origin.size(), 0);
+    for (Index h = 0; h < s_.halfedge_count(); ++h)
+      if (h < s_.twin[h]) offer(h);
+    const Index before = s_.vertex_count();
+    while (!queue_.empty()) {
+      const Offer best = queue_.top();
+      queue_.pop();
+      const Index h = best.halfedge;
+      if (version_[h] != best.version || left_[s_.component[s_.origin[h]]] <= 0) continue;
+      if ((s_.vertex_count() - before) % 256 == 0) report_progress(progress, "subdivision", 0.0);
+      cut(h);
+    }
+    if (s_.vertex_count() == before) return std::move(s_);
+    s_.component_count = 0;
+    complete_snapshot(s_);
+    return std::move(s_);
+  }
+
+ private:
+  // An edge as it was: later cuts of it or beside it change its version.
+  struct Offer {
+    double length;
+    Index halfedge, version;
+    bool operator<(const Offer& o) const {
+      return length != o.length ? length < o.length : halfedge > o.halfedge;
+    }
+  };
+
+  // Queues the edge of h if it is too long.
+  void offer(Index h) {
+    h = std::min(h, s_.twin[h]);
+    const Index component = s_.component[s_.origin[h]];
+    version_.resize(s_.origin.size(), 0);
+    ++version_[h];
+    const double length = (s_.position[s_.origin[h]] - s_.position[s_.target(h)]).norm();
+    if (left_[component] > 0 && length > longest_[component]) queue_.push({length, h, version_[h]});
+  }
+
+  //        c                   c
+  //      /   \               / | \            The faces on both sides of a-b are cut in two from a vertex m in
+  //     a --- b    becomes  a--m--b           the middle.
+  //      \   /               \ | /
+  //        d                   d
+  void cut(Index h) {
+    const Index g = s_.twin[h];
+    const auto m = static_cast<Index>(s_.position.size());
+    const Index component = s_.component[s_.origin[h]];
+    s_.position.push_back(0.5 * (s_.position[s_.origin[h]] + s_.position[s_.origin[g]]));
+    s_.component.push_back(component);
+    --left_[component];
+    const Index after_h = cut_face(h, m), after_g = cut_face(g, m);
+    pair(h, after_g);
+    pair(g, after_h);
+    for (const Index e : {h, g, after_h + 2, after_g + 2}) offer(e);
+  }
+
+  // The half-edge e, a-b of the face a-b-c, becomes a-m; returns the one that runs m-b.
+  Index cut_face(Index e, Index m) {
+    const Index across = SurfaceSnapshot::next(e), outer = s_.twin[across];
+    const auto added = static_cast<Index>(s_.origin.size());
+    const Index b = s_.origin[across], c = s_.apex(e);
+    s_.origin.insert(s_.origin.end(), {m, b, c});
+    s_.twin.insert(s_.twin.end(), {kNone, kNone, kNone});
+    s_.origin[across] = m;
+    pair(added + 1, outer);
+    pair(added + 2, across);
+    offer(added + 1);
+    return added;
+  }
+  void pair(Index a, Index b) {
+    s_.twin[a] = b;
+    s_.twin[b] = a;
+  }
+
+  SurfaceSnapshot s_;
+  std::vector<Index> left_;      // per component: vertices that may be added
+  std::vector<double> longest_;  // per component: edge that is not cut
+  std::vector<Index> version_;   // per half-edge
+  std::priority_queue<Offer> queue_;
+};
+
+}  // namespace detail
+
+MSPSKEL_INLINE void validate(const SubdivisionOptions& o) {
+  if (o.vertices < 4) throw UsageError("vertices of a subdivided surface must be at least 4");
+  if (o.all_vertices < 4) throw UsageError("vertices of subdivided surfaces must be at least 4");
+  if (!(o.longest > 0 && o.longest <= 1))
+    throw UsageError("the longest edge of a subdivided surface must be from 0 to 1 of the diagonal");
+}
+
+MSPSKEL_INLINE SurfaceSnapshot subdivide_surface(const SurfaceSnapshot& surface,
+                                                 const SubdivisionOptions& options,
+                                                 const Execution& execution) {
+  validate(options);
+  return detail::EdgeBisection(surface, options).run(execution.progress);
+}
+
+}  // namespace mspskel

@@ -1,0 +1,35 @@
+// The same surface with its long edges cut: what the stages walk on where the input is sparse, as surfaces from
+// CAD are.
+#pragma once
+
+#include "mspskel/base/progress.h"
+#include "mspskel/mesh/surface_snapshot.h"
+
+namespace mspskel {
+
+struct SubdivisionOptions {
+  // A component is cut until it has so many; those with more stay as they are. [4, 2^31)
+  Index vertices = 1600;
+  // Of all components together. A component of many may be given its even share of it at most. [4, 2^31)
+  Index all_vertices = 100'000;
+  double longest = 0.03;  // edge that is left as it is, as a share of the diagonal of its component. (0, 1]
+};
+
+// Throws UsageError naming the option that is out of range.
+void validate(const SubdivisionOptions& options);
+
+// Cuts edges in their middles, the longest first (bisection of edges: Rivara 1984, "Mesh refinement processes
+// based on the generalized bisection of simplices"), until none is too long or its component has as many
+// vertices as it may have. The surface as a set of points, its frame, and the numbers of its vertices stay;
+// added vertices come after them. Edges of one length go by number. Lengths rather than lengths for the local
+// thickness: with those thin limbs got vertices and blocks beside them none, and limbs were lost.
+//
+// O(edges of the result · log). Throws UsageError, Cancelled.
+SurfaceSnapshot subdivide_surface(const SurfaceSnapshot& surface, const SubdivisionOptions& options = {},
+                                  const Execution& execution = {});
+
+}  // namespace mspskel
+
+#ifndef MSPSKEL_COMPILED
+#include "mspskel/mesh/detail/subdivide_surface_impl.h"
+#endif

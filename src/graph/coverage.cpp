@@ -1,0 +1,3 @@
+#include "mspskel/graph/coverage.h"
+
+#include "mspskel/graph/detail/coverage_impl.h"

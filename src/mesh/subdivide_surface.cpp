@@ -1,0 +1,3 @@
+#include "mspskel/mesh/subdivide_surface.h"
+
+#include "mspskel/mesh/detail/subdivide_surface_impl.h"
