@@ -24,6 +24,10 @@ def main():
     package, subdirectory, fetched = re.findall(r"^```cmake\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
     shutil.rmtree(work, ignore_errors=True)
     run("cmake", "--install", binary, "--prefix", work / "prefix")
+    for made in ["man/man1/mspskel.1", "bash-completion/completions/mspskel", "zsh/site-functions/_mspskel",
+                 "fish/vendor_completions.d/mspskel.fish"]:
+        if "--smallest" not in (work / "prefix" / "share" / made).read_text(encoding="utf-8").replace("\\-", "-").replace(" -l ", " --"):
+            sys.exit(f"share/{made} does not know --smallest")
 
     def configure(name, cmake, *options):
         project = work / name
