@@ -20,7 +20,9 @@ class Command {
   const CommandLine& line() const { return line_; }
 
  protected:
-  Command(const std::string& usage, const std::string& description) : line_(usage, description) {}
+  // `usage` is what follows the program's name.
+  Command(const std::string& usage, const std::string& description)
+      : line_("mspskel " + usage, description) {}
 
  private:
   CommandLine line_;

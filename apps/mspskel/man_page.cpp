@@ -61,9 +61,7 @@ std::string upper(std::string text) {
   return text;
 }
 
-std::string synopsis(const CommandLine& line) {
-  return bold("mspskel") + " " + escaped(line.usage()) + "\n.br\n";
-}
+std::string synopsis(const CommandLine& line) { return escaped(line.usage()) + "\n.br\n"; }
 
 }  // namespace
 

@@ -50,7 +50,7 @@ struct ShortGroup {
 // One command's options. Errors are UsageErrors; an unknown option is answered with the nearest known one.
 class CommandLine {
  public:
-  // `usage` is the line of arguments after the program's name.
+  // `usage` is the whole line, with the program's name.
   CommandLine(const std::string& usage, const std::string& description);
   CommandLine(const CommandLine&) = delete;  // options refer to it
   CommandLine& operator=(const CommandLine&) = delete;

@@ -45,7 +45,7 @@ std::string group_text(const OptionGroup& group) {
 std::string text_of(const CommandLine& line, const std::vector<OptionGroup>& groups, bool brief) {
   std::string text;
   for (const std::string& words : wrap(line.description(), kWidth)) text += words + "\n";
-  text += "\nUsage: mspskel " + line.usage() + "\n";
+  text += "\nUsage: " + line.usage() + "\n";
   if (!line.arguments().empty()) text += "\nArguments:\n";
   for (const ArgumentEntry& argument : line.arguments()) text += item(argument.name, argument.help);
   for (const OptionGroup& group : groups) text += group_text(group);
