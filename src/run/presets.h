@@ -9,7 +9,7 @@
 
 namespace mspskel::cli {
 
-// Only what measurably helps on such meshes is set, which may be nothing; docs/presets.md has the figures.
+// Only what measurably helps on such meshes is set; docs/presets.md has the figures.
 struct Preset {
   std::string kind;
   std::string models;                                         // that it is for
