@@ -1,10 +1,13 @@
 """The docs' shell examples run, their links lead somewhere, and the gallery shows every sample."""
+import json
 import os
 import re
 import shutil
 import subprocess
 import sys
+import types
 import unittest
+import unittest.mock
 
 from program import PROGRAM, SOURCE, ProgramTest
 
@@ -37,6 +40,32 @@ class Recipes(ProgramTest):
 
     def test_examples_of_is_my_skeleton_right_run(self):
         self.run_examples("is_my_skeleton_right.md", 4)
+
+    def test_the_script_for_blender_draws_every_edge(self):
+        self.succeed("data/quadruped.off", "out/lines.json", "out/lines.skel")
+        text = (DOCS / "recipes.md").read_text(encoding="utf-8")
+        script = next(s for s in re.findall(r"^```python\n(.*?)^```", text, re.MULTILINE | re.DOTALL) if "import bpy" in s)
+        drawn = []
+
+        class Points(list):
+            def add(self, count):
+                self.extend(types.SimpleNamespace() for _ in range(count))
+
+        def new_spline(_):
+            drawn.append(types.SimpleNamespace(points=Points([types.SimpleNamespace()])))
+            return drawn[-1]
+
+        curve = types.SimpleNamespace(splines=types.SimpleNamespace(new=new_spline))
+        blender = unittest.mock.MagicMock()
+        blender.data.curves.new.return_value = curve
+        with unittest.mock.patch.dict(sys.modules, bpy=blender):
+            exec(script.replace("/path/to", str(self.folder)), {})
+        info = json.loads(self.succeed("info", "out/lines.skel", "--json"))
+        self.assertEqual(len(drawn), info["edges"])
+        for line in drawn:
+            for point in line.points:
+                self.assertEqual((len(point.co), point.co[3]), (4, 1))
+                self.assertGreater(point.radius, 0)
 
     def test_links_lead_somewhere(self):
         for page in DOCS.glob("*.md"):
