@@ -29,7 +29,7 @@ struct Settings {
 
 bool parse(const std::vector<std::string>& arguments, Settings& settings) {
   settings.execution.threads = 1;
-  cli::CommandLine line("OUT [MODEL...] [options]", kDescription);
+  cli::CommandLine line("mspskel-experiments OUT [MODEL...] [options]", kDescription);
   line.argument("OUT", settings.folder, "folder, made if absent")->required();
   line.arguments("MODELS", settings.models,
                  "mesh files (.off .obj .ply .stl) or names of samples; without any, the samples quadruped, "

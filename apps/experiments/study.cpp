@@ -6,6 +6,7 @@
 #include "baseline.h"
 #include "mspskel/base/stopwatch.h"
 #include "mspskel/graph/collapsed_arcs.h"
+#include "mspskel/graph/make_curve_skeleton.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
 
 namespace mspskel::experiments {

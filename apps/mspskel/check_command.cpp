@@ -3,7 +3,6 @@
 #include <iostream>
 
 #include "certificate.h"
-#include "command_line.h"
 #include "commands.h"
 #include "distinct_files.h"
 #include "mesh_input.h"
@@ -47,46 +46,61 @@ void print(const SkeletonChecks& c, const TopologyCertificate& certificate,
   std::printf("radius       off by %.3g of the diagonal at most\n", c.radius_error);
 }
 
-}  // namespace
+class CheckCommand : public Command {
+ public:
+  CheckCommand()
+      : Command("check MESH SKELETON [options]",
+                "Verifies a skeleton against its mesh: pieces, cycles, containment, centredness, radius.") {
+    CommandLine& table = line();
+    table.argument("MESH", mesh_path_, "mesh (.off .obj .ply .stl), - for stdin")->required();
+    table.argument("SKELETON", skeleton_path_, "skeleton (.skel .obj .ply .json)")->required();
+    table.number("--least-inside", least_inside_, {0, 1}, "share of the length that must be inside");
+    table.text("--json", json_path_, "FILE", "the figures as JSON; - for stdout, in place of the text");
+    table.flag("-q,--quiet", quiet_, "no text, only the exit status");
+    table.number("-t,--threads", execution_.threads, {0, 4096}, "0: as many as the machine has");
+    add_repair_options(table, repair_);
+    table.section(
+        {"Exit status",
+         "  0 if the certificate is not \"failed\" and enough of the skeleton inside, 5 if not.\n"});
+  }
 
-int check_command(const std::vector<std::string>& arguments) {
-  std::string mesh_path, skeleton_path, json_path;
-  double least_inside = 1;
-  bool quiet = false;
-  Execution execution;
-  RepairSettings repair;
-  CommandLine line(
-      "check MESH SKELETON [options]",
-      "Verifies a skeleton against its mesh: pieces, cycles, containment, centredness, radius.",
-      "Exit status 0 if the certificate is not \"failed\" and enough of the skeleton inside, 5 if not.\n");
-  line.argument("MESH", mesh_path, "mesh (.off .obj .ply .stl), - for stdin")->required();
-  line.argument("SKELETON", skeleton_path, "skeleton (.skel .obj .ply .json)")->required();
-  line.number("--least-inside", least_inside, {0, 1}, "share of the length that must be inside");
-  line.text("--json", json_path, "FILE", "the figures as JSON; - for stdout, in place of the text");
-  line.flag("-q,--quiet", quiet, "no text, only the exit status");
-  line.number("-t,--threads", execution.threads, {0, 4096}, "0: as many as the machine has");
-  add_repair_options(line, repair);
-  if (!line.parse(arguments)) return 0;
-  repair.resolve();
+  int run() override;
 
-  refuse_shared_files({{mesh_path, "the mesh"}, {skeleton_path, "the skeleton"}},
-                      {{json_path, "the figures"}});
-  const MeshInput input = prepare_mesh(read_polygon_soup(mesh_path), repair, execution);
+ private:
+  std::string mesh_path_, skeleton_path_, json_path_;
+  double least_inside_ = 1;
+  bool quiet_ = false;
+  Execution execution_;
+  RepairSettings repair_;
+};
+
+int CheckCommand::run() {
+  repair_.resolve();
+  refuse_shared_files({{mesh_path_, "the mesh"}, {skeleton_path_, "the skeleton"}},
+                      {{json_path_, "the figures"}});
+  const MeshInput input = prepare_mesh(read_polygon_soup(mesh_path_), repair_, execution_);
   const SurfaceSnapshot surface = make_snapshot(input.built.mesh);
-  const CurveSkeleton skeleton = input.of_surface(read_skeleton(skeleton_path));
+  const CurveSkeleton skeleton = input.of_surface(read_skeleton(skeleton_path_));
   const BoundingVolumeHierarchy solid(surface);
-  const SkeletonChecks checks = check_skeleton(surface, solid, skeleton, execution);
+  const SkeletonChecks checks = check_skeleton(surface, solid, skeleton, execution_);
   const TopologyCertificate certificate =
       certify(surface, compute_volume_cocycles(surface), solid, skeleton, CertificateDepth::kFull);
-  const std::vector<UncoveredPart> uncovered = find_uncovered_parts(surface, solid, skeleton, 0.015, execution);
+  const std::vector<UncoveredPart> uncovered =
+      find_uncovered_parts(surface, solid, skeleton, CoverageOptions{}, execution_);
   const Verdict verdict = judge(surface, certificate, uncovered);
-  const bool inside = least_inside < 1 ? checks.inside >= least_inside : checks.contained;
-  if (!json_path.empty()) write_file_atomically(json_path, report_text(checks_json(checks, certificate, uncovered)));
-  if (!quiet && json_path != "-") print(checks, certificate, uncovered);
+  const bool inside = least_inside_ < 1 ? checks.inside >= least_inside_ : checks.contained;
+  if (!json_path_.empty()) write_file_atomically(json_path_, report_text(checks_json(checks, certificate, uncovered)));
+  if (!quiet_ && json_path_ != "-") print(checks, certificate, uncovered);
   if (!verdict.failure.empty()) throw NoSkeletonError(verdict.failure);
   if (inside) return 0;
   throw NoSkeletonError(certificate.edges_not_inside > 0 ? verdict.warnings.front()
                                                          : "the skeleton leaves the solid");
+}
+
+}  // namespace
+
+std::unique_ptr<Command> make_check_command(const std::vector<std::string>&) {
+  return std::make_unique<CheckCommand>();
 }
 
 }  // namespace mspskel::cli

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <iostream>
 #include <optional>
 
 #include "cancellation.h"
@@ -13,6 +14,7 @@
 #include "distinct_files.h"
 #include "extract_settings.h"
 #include "mspskel/base/error.h"
+#include "mspskel/base/near_name.h"
 #include "mspskel/base/progress.h"
 #include "mspskel/base/stopwatch.h"
 #include "mspskel/io/atomic_file.h"
@@ -60,11 +62,21 @@ bool is_skeleton_file(const std::string& path) {
   return !is_page(path) && !is_glb(path) && !is_rig_text(path);
 }
 
+void refuse_unknown_format(const std::string& path) {
+  std::vector<std::string> known = skeleton_extensions();
+  try {
+    skeleton_format_of(path);
+  } catch (const UsageError&) {
+    known.insert(known.end(), {".glb", ".rig.txt", ".html"});
+    throw unknown_extension("format", path, known);
+  }
+}
+
 // What is wrong with the places of the outputs shows before the work, not after it.
 void check_outputs(const ExtractSettings& settings) {
   std::vector<FileRole> written;
   for (const std::string& output : settings.outputs) {
-    if (is_skeleton_file(output)) skeleton_format_of(output);
+    if (is_skeleton_file(output)) refuse_unknown_format(output);
     written.push_back({output, "an output"});
   }
   written.push_back({settings.report, "the report"});
@@ -138,14 +150,25 @@ void add_rig(const ExtractSettings& settings, Extraction& extraction) {
                               " of the skeleton's are cut at their far ends");
 }
 
+void expect(ProgressEstimate& estimate, const MeshInput& input, const ExtractOptions& options) {
+  const auto vertices = static_cast<Index>(input.built.mesh.n_vertices());
+  estimate.expect_stages(options, vertices > options.coarsening.vertices);
+  if (input.built.component_count < 2) return;
+  const SurfaceSnapshot surface = make_snapshot(input.built.mesh);
+  std::vector<std::size_t> faces(surface.component_count, 0);
+  for (Index f = 0; f < surface.face_count(); ++f) ++faces[surface.component[surface.origin[3 * f]]];
+  estimate.expect_components(faces);
+}
+
 Extraction extract_and_check(const ExtractSettings& settings, const Cancellation& cancellation,
-                             ProgramSeconds& seconds) {
+                             ProgramSeconds& seconds, Terminal& terminal) {
   const Stopwatch reading;
   MeshInput input =
       prepare_mesh(read_polygon_soup(settings.input), settings.run.repair, settings.run.extract.execution);
   seconds.read = reading.seconds();
   settings.root.resolve(input.repair.openings);  // what is wrong with it shows before the work
   cancellation.throw_if_requested();
+  if (!settings.quiet) expect(terminal.estimate(), input, settings.run.extract);
   Extraction extraction;
   extraction.made = extract_from(std::move(input), settings.run.extract);
   add_losses(settings, extraction.made.result);
@@ -213,7 +236,7 @@ void extract(const ExtractSettings& given, const Cancellation& cancellation, Ter
   ProgramSeconds seconds;
   check_outputs(settings);
   keep_threads_apart(thread_count(settings.run.extract.execution));
-  const Extraction extraction = extract_and_check(settings, cancellation, seconds);
+  const Extraction extraction = extract_and_check(settings, cancellation, seconds, terminal);
   cancellation.throw_if_requested();
   const std::string& failure = extraction.made.failure;
   show_warnings(extraction.made.result, terminal);
@@ -223,19 +246,36 @@ void extract(const ExtractSettings& given, const Cancellation& cancellation, Ter
   if (!failure.empty()) throw NoSkeletonError(failure);
 }
 
+class ExtractCommand : public Command {
+ public:
+  explicit ExtractCommand(const std::vector<std::string>& words)
+      : Command("IN [OUT...] [options]", kExtractDescription), options_(words, settings_, line()) {}
+
+  int run() override {
+    if (settings_.version) {
+      std::cout << version_text();
+      return 0;
+    }
+    options_.resolve();
+    const Cancellation cancellation(settings_.run.time_limit);
+    Terminal terminal(settings_.verbosity());
+    try {
+      extract(settings_, cancellation, terminal);
+    } catch (const Cancelled&) {
+      throw Error(ErrorKind::kCancelled, cancellation.reason());
+    }
+    return 0;
+  }
+
+ private:
+  ExtractSettings settings_;
+  ExtractOptionTable options_;
+};
+
 }  // namespace
 
-int extract_command(const std::vector<std::string>& arguments) {
-  ExtractSettings settings;
-  if (!parse_extract_settings(arguments, settings)) return 0;
-  const Cancellation cancellation(settings.run.time_limit);
-  Terminal terminal(settings.verbosity());
-  try {
-    extract(settings, cancellation, terminal);
-  } catch (const Cancelled&) {
-    throw Error(ErrorKind::kCancelled, cancellation.reason());
-  }
-  return 0;
+std::unique_ptr<Command> make_extract_command(const std::vector<std::string>& words) {
+  return std::make_unique<ExtractCommand>(words);
 }
 
 }  // namespace mspskel::cli

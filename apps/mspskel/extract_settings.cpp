@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <iostream>
 
 #include "commands.h"
 #include "mspskel/base/error.h"
@@ -11,21 +10,28 @@
 namespace mspskel::cli {
 namespace {
 
-constexpr const char* kDescription =
-    "Curve skeleton of a closed triangle mesh by minimum slice perimeter (MSP).";
-
-constexpr const char* kFooter =
-    R"(Other commands, each with its own --help:
-  mspskel sample NAME [OUT]                closed meshes with known answers
-  mspskel render MESH [SKELETON] OUT.png   a picture
-  mspskel check MESH SKELETON              verifies a skeleton against its mesh
-  mspskel convert SKELETON OUT...          the same skeleton in other formats
-  mspskel info FILE                        what a mesh or a skeleton is, in numbers
-
-Exit status: 0 done, 1 usage, 2 cannot read, 3 the mesh is not usable, 4 cannot write,
-5 no skeleton, or one whose pieces or cycles are not the mesh's (see --keep-failed),
-6 time limit or interrupted.
+constexpr const char* kExamples =
+    R"(  mspskel hand.off hand.html                    a page to look at, pick and measure
+  mspskel hand.off hand.skel hand.swc           skeletons for other programs
+  mspskel cell.ply cell.swc --for neurons       settings that suit a kind of model
 )";
+
+constexpr const char* kExitStatus =
+    R"(  0 done, 1 usage, 2 cannot read, 3 the mesh is not usable, 4 cannot write,
+  5 no skeleton, or one whose pieces or cycles are not the mesh's (see --keep-failed),
+  6 time limit or interrupted.
+)";
+
+std::string command_list() {
+  std::string text;
+  for (const CommandEntry& command : commands()) {
+    if (command.name.empty()) continue;
+    const std::string words = "  mspskel " + command.name + " " + command.arguments;
+    text +=
+        words + std::string(words.size() < 42 ? 42 - words.size() : 1, ' ') + " " + command.summary + "\n";
+  }
+  return text;
+}
 
 void add_segment_options(CommandLine& line, ExtractSettings& settings) {
   line.group("Parts");
@@ -62,46 +68,59 @@ bool ExtractSettings::needs_rig() const {
   return rig || !bent.empty() || std::any_of(outputs.begin(), outputs.end(), is_rig_text);
 }
 
-bool parse_extract_settings(const std::vector<std::string>& arguments, ExtractSettings& settings) {
-  CommandLine line("IN [OUT...] [options]", kDescription, kFooter);
-  RunOptionTable table(arguments, settings.run);
-  bool version = false;
+ExtractOptionTable::ExtractOptionTable(const std::vector<std::string>& words, ExtractSettings& settings,
+                                       CommandLine& line)
+    : settings_(settings), line_(line), run_(words, settings.run) {
+  add_options();
+  add_help();
+}
 
-  line.argument("IN", settings.input, "mesh (.off .obj .ply .stl), - for stdin");
-  line.arguments("OUT", settings.outputs,
-                 "skeletons, by extension: .skel .obj .ply .json .swc .vtp .graphml .cgal .polylines.txt; "
-                 ".glb is glTF for viewers, with --rig for animation; .rig.txt is RigNet's form of a rig; "
-                 ".html is a page to look at; - is .skel on stdout; IN with .skel by default");
-  table.add_general(line);
-  line.text("--report", settings.report, "FILE", "what was done and found, as JSON; - for stdout");
-  line.text("--stages", settings.stages, "DIR", "what lies between the stages: msp.csv and coloured meshes");
-  settings.root.add_to(line);
-  line.flag("--keep-failed", settings.keep_failed,
-            "write the skeleton even if it fails its checks; the exit status is 5 all the same");
-  line.flag("-q,--quiet", settings.quiet, "no warnings, no progress");
-  line.flag("-v,--verbose", settings.verbose, "a word about every stage");
-  line.flag("--version", version, "print the version and the libraries' versions and exit");
-  add_repair_options(line, settings.run.repair);
-  line.text("--write-mesh", settings.run.repair.write_mesh, "FILE",
-            "the surface that the skeleton belongs to (.off .obj .ply)");
-  table.add_stages(line);
-  add_segment_options(line, settings);
-  add_rig_options(line, settings);
-  if (!line.parse(arguments)) return false;
-  if (version) {
-    std::cout << version_text();
-    return false;
-  }
-  if (settings.input.empty()) throw UsageError("which mesh? usage: mspskel IN [OUT...] [options]");
-  check_shape_options(line, settings);
-  table.resolve(line);
-  settings.values = line.values();
-  if (settings.root.text.rfind("open:", 0) != 0) settings.root.resolve({});
-  if (settings.outputs.empty())
-    settings.outputs.push_back(
-        settings.input == "-" ? "-"
-                              : std::filesystem::path(settings.input).replace_extension(".skel").string());
-  return true;
+void ExtractOptionTable::add_options() {
+  line_.argument("IN", settings_.input, "mesh (.off .obj .ply .stl), - for stdin");
+  line_.arguments("OUT", settings_.outputs,
+                  "skeletons, by extension: .skel .obj .ply .json .swc .vtp .graphml .cgal .polylines.txt; "
+                  ".glb is glTF for viewers, with --rig for animation; .rig.txt is RigNet's form of a rig; "
+                  ".html is a page to look at; - is .skel on stdout; IN with .skel by default");
+  run_.add_general(line_);
+  line_.text("--report", settings_.report, "FILE", "what was done and found, as JSON; - for stdout");
+  line_.text("--stages", settings_.stages, "DIR",
+             "what lies between the stages: msp.csv and coloured meshes");
+  settings_.root.add_to(line_);
+  line_.flag("--keep-failed", settings_.keep_failed,
+             "write the skeleton even if it fails its checks; the exit status is 5 all the same");
+  line_.flag("-q,--quiet", settings_.quiet, "no warnings, no progress");
+  line_.flag("-v,--verbose", settings_.verbose, "a word about every stage");
+  line_.flag("--version", settings_.version, "print the version and the libraries' versions and exit");
+  add_repair_options(line_, settings_.run.repair);
+  line_.text("--write-mesh", settings_.run.repair.write_mesh, "FILE",
+             "the surface that the skeleton belongs to (.off .obj .ply)");
+  run_.add_stages(line_);
+  add_segment_options(line_, settings_);
+  add_rig_options(line_, settings_);
+}
+
+void ExtractOptionTable::add_help() {
+  line_.section({"Examples", kExamples});
+  line_.section({"What --for sets, where no option says otherwise", preset_list(), false});
+  line_.section({"Other commands, each with its own --help", command_list()});
+  line_.section({"Exit status", kExitStatus});
+  line_.short_help({{"Mesh", {"open", "components"}},
+                    {"Skeleton", {"for", "smallest", "step"}},
+                    {"Files", {"root", "report", "segments", "rig"}},
+                    {"Run", {"threads", "time-limit", "quiet"}},
+                    {"Help", {"help", "help-all", "version"}}});
+}
+
+void ExtractOptionTable::resolve() {
+  if (settings_.input.empty()) throw UsageError("which mesh? usage: mspskel IN [OUT...] [options]");
+  check_shape_options(line_, settings_);
+  run_.resolve(line_);
+  settings_.values = line_.values();
+  if (settings_.root.text.rfind("open:", 0) != 0) settings_.root.resolve({});
+  if (settings_.outputs.empty())
+    settings_.outputs.push_back(
+        settings_.input == "-" ? "-"
+                               : std::filesystem::path(settings_.input).replace_extension(".skel").string());
 }
 
 }  // namespace mspskel::cli

@@ -28,6 +28,7 @@ struct ExtractSettings {
   bool keep_failed = false;
   bool quiet = false;
   bool verbose = false;
+  bool version = false;  // nothing but that is asked for
   RunOptions run;
   Json values;  // of all options, for the report
 
@@ -37,7 +38,24 @@ struct ExtractSettings {
   }
 };
 
-// False if help or the version was asked for and has been printed. Throws UsageError.
-bool parse_extract_settings(const std::vector<std::string>& arguments, ExtractSettings& settings);
+inline constexpr const char* kExtractDescription =
+    "Curve skeleton of a closed triangle mesh by minimum slice perimeter (MSP).";
+
+// The options of the default command. Settings and line must outlive it.
+class ExtractOptionTable {
+ public:
+  // `words` are what the line is to parse: the defaults of some options depend on others.
+  ExtractOptionTable(const std::vector<std::string>& words, ExtractSettings& settings, CommandLine& line);
+  // After parsing: what options mean together. Throws UsageError.
+  void resolve();
+
+ private:
+  void add_options();
+  void add_help();
+
+  ExtractSettings& settings_;
+  CommandLine& line_;
+  RunOptionTable run_;
+};
 
 }  // namespace mspskel::cli

@@ -122,41 +122,53 @@ void print_skeleton(const CurveSkeleton& skeleton, const GraphCounts& c) {
   }
 }
 
+class InfoCommand : public Command {
+ public:
+  InfoCommand()
+      : Command("info FILE [options]",
+                "What a mesh or a skeleton is: counts, components, genus, openings, size; branches with "
+                "length and radius.") {
+    CommandLine& table = line();
+    table.argument("FILE", path_, "mesh (.off .obj .ply .stl) or skeleton (.skel .obj .ply .json)")
+        ->required();
+    table.flag("--json", as_json_, "the same for programs");
+    table.flag("-q,--quiet", quiet_, "no warnings");
+    add_repair_options(table, repair_);
+  }
+
+  int run() override {
+    repair_.resolve();
+    if (path_ != "-" && is_skeleton(path_)) {
+      const CurveSkeleton skeleton = read_skeleton(path_);
+      const GraphCounts counts = count_graph(skeleton);
+      if (as_json_)
+        std::cout << report_text(skeleton_facts(skeleton, counts));
+      else
+        print_skeleton(skeleton, counts);
+      return 0;
+    }
+    const MeshInput input = prepare_mesh(read_polygon_soup(path_), repair_);
+    const MeshReport report = report_mesh(make_snapshot(input.built.mesh));
+    if (as_json_) {
+      std::cout << report_text(mesh_facts(input, report));
+      return 0;
+    }
+    Terminal terminal(quiet_ ? Verbosity::kQuiet : Verbosity::kNormal);
+    for (const std::string& warning : input.built.warnings) terminal.warning(warning);
+    print_mesh(input, report);
+    return 0;
+  }
+
+ private:
+  std::string path_;
+  bool as_json_ = false, quiet_ = false;
+  RepairSettings repair_;
+};
+
 }  // namespace
 
-int info_command(const std::vector<std::string>& arguments) {
-  std::string path;
-  bool as_json = false, quiet = false;
-  RepairSettings repair;
-  CommandLine line(
-      "info FILE [options]",
-      "What a mesh or a skeleton is: counts, components, genus, openings, size; branches with length "
-      "and radius.");
-  line.argument("FILE", path, "mesh (.off .obj .ply .stl) or skeleton (.skel .obj .ply .json)")->required();
-  line.flag("--json", as_json, "the same for programs");
-  line.flag("-q,--quiet", quiet, "no warnings");
-  add_repair_options(line, repair);
-  if (!line.parse(arguments)) return 0;
-  repair.resolve();
-  if (path != "-" && is_skeleton(path)) {
-    const CurveSkeleton skeleton = read_skeleton(path);
-    const GraphCounts counts = count_graph(skeleton);
-    if (as_json)
-      std::cout << report_text(skeleton_facts(skeleton, counts));
-    else
-      print_skeleton(skeleton, counts);
-    return 0;
-  }
-  const MeshInput input = prepare_mesh(read_polygon_soup(path), repair);
-  const MeshReport report = report_mesh(make_snapshot(input.built.mesh));
-  Terminal terminal(quiet ? Verbosity::kQuiet : Verbosity::kNormal);
-  if (as_json) {
-    std::cout << report_text(mesh_facts(input, report));
-    return 0;
-  }
-  for (const std::string& warning : input.built.warnings) terminal.warning(warning);
-  print_mesh(input, report);
-  return 0;
+std::unique_ptr<Command> make_info_command(const std::vector<std::string>&) {
+  return std::make_unique<InfoCommand>();
 }
 
 }  // namespace mspskel::cli

@@ -2,34 +2,53 @@
 //
 // The first word picks the command here, and not in CLI11, which would take `check a b` for a mesh named
 // "check". A file of such a name is reached as ./check.
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <iostream>
+#include <memory>
 #include <new>
 #include <string>
 #include <vector>
 
 #include "commands.h"
 #include "mspskel/base/error.h"
+#include "mspskel/base/near_name.h"
 #include "terminal.h"
 #include "wait_policy.h"
 
 namespace mspskel::cli {
 namespace {
 
+std::vector<std::string> command_names() {
+  std::vector<std::string> names;
+  for (const CommandEntry& command : commands())
+    if (!command.name.empty()) names.push_back(command.name);
+  return names;
+}
+
+// A first word that names no command is a mesh; one that names no file either may be a mistyped command.
+void refuse_mistyped_command(const std::string& word) {
+  std::error_code ignored;
+  if (word.find_first_of("./") != std::string::npos || word.front() == '-' ||
+      std::filesystem::exists(word, ignored))
+    return;
+  const std::string near = did_you_mean(word, command_names());
+  if (!near.empty()) throw UsageError(word + " is neither a command nor a file" + near);
+}
+
 int run(const std::vector<std::string>& words) {
-  using Command = int (*)(const std::vector<std::string>&);
-  const std::pair<const char*, Command> commands[] = {{"sample", sample_command},
-                                                      {"render", render_command},
-                                                      {"check", check_command},
-                                                      {"convert", convert_command},
-                                                      {"info", info_command}};
-  for (const auto& [name, command] : commands) {
-    if (!words.empty() && words.front() == name) return command({words.begin() + 1, words.end()});
-  }
-  return extract_command(words);
+  const std::string first = words.empty() ? "" : words.front();
+  const auto chosen = std::find_if(commands().begin(), commands().end(),
+                                   [&first](const CommandEntry& c) { return c.name == first; });
+  const bool named = !first.empty() && chosen != commands().end();
+  if (!first.empty() && !named) refuse_mistyped_command(first);
+  const std::vector<std::string> rest(words.begin() + (named ? 1 : 0), words.end());
+  const std::unique_ptr<Command> command = (named ? *chosen : commands().front()).make(rest);
+  return command->line().parse(rest) ? command->run() : 0;
 }
 
 // What is left in the buffers, too: a full disk shows when they are emptied.

@@ -3,7 +3,6 @@
 #include <fstream>
 #include <iterator>
 
-#include "command_line.h"
 #include "commands.h"
 #include "distinct_files.h"
 #include "mspskel/base/error.h"
@@ -43,45 +42,60 @@ void color_by_part(RenderScene& scene, const std::vector<Index>& parts) {
   }
 }
 
-}  // namespace
+class RenderCommand : public Command {
+ public:
+  RenderCommand();
+  int run() override;
 
-int render_command(const std::vector<std::string>& arguments) {
-  std::vector<std::string> files;
-  RenderOptions options;
-  Execution execution;
-  CommandLine line("render MESH [SKELETON] OUT.png [options]",
-                   "Draws a mesh, as a ghost round its skeleton if there is one. Where the skeleton leaves "
-                   "the solid it is red.");
-  line.arguments("FILES", files,
-                 "mesh (.off .obj .ply .stl), skeleton (.skel .obj .ply .json), picture (.png)");
-  std::string segments;
-  line.text("--segments", segments, "FILE.seg", "colours the faces by their parts, one number a line");
-  line.number("--views", options.view_count, {1, 16}, "views side by side");
-  line.number("--width", options.width, {16, 8192}, "of one view, pixels");
-  line.number("--height", options.height, {16, 8192}, "of one view, pixels");
-  line.number("--azimuth", options.azimuth, {-360, 360}, "of the three-quarter view, degrees");
-  line.number("--elevation", options.elevation, {-90, 90}, "of the three-quarter view, degrees");
-  line.number("--samples", options.samples, {1, 4}, "along each side of a pixel");
-  line.number("--opacity", options.ghost_opacity, {0, 1}, "of the surface before a skeleton");
-  line.number("--line-width", options.line_width, {0.5, 100}, "of the skeleton, pixels");
-  line.flag("--wireframe", options.wireframe, "draw the edges of the triangles");
-  line.number("-t,--threads", execution.threads, {0, 4096}, "0: as many as the machine has");
-  if (!line.parse(arguments)) return 0;
-  if (files.size() < 2 || files.size() > 3)
+ private:
+  std::vector<std::string> files_;
+  std::string segments_;
+  RenderOptions options_;
+  Execution execution_;
+};
+
+RenderCommand::RenderCommand()
+    : Command("render MESH [SKELETON] OUT.png [options]",
+              "Draws a mesh, as a ghost round its skeleton if there is one. Where the skeleton leaves the "
+              "solid it is red.") {
+  CommandLine& table = line();
+  table.arguments("FILES", files_,
+                  "mesh (.off .obj .ply .stl), skeleton (.skel .obj .ply .json), picture (.png)");
+  table.text("--segments", segments_, "FILE.seg", "colours the faces by their parts, one number a line");
+  table.number("--views", options_.view_count, {1, 16}, "views side by side");
+  table.number("--width", options_.width, {16, 8192}, "of one view, pixels");
+  table.number("--height", options_.height, {16, 8192}, "of one view, pixels");
+  table.number("--azimuth", options_.azimuth, {-360, 360}, "of the three-quarter view, degrees");
+  table.number("--elevation", options_.elevation, {-90, 90}, "of the three-quarter view, degrees");
+  table.number("--samples", options_.samples, {1, 4}, "along each side of a pixel");
+  table.number("--opacity", options_.ghost_opacity, {0, 1}, "of the surface before a skeleton");
+  table.number("--line-width", options_.line_width, {0.5, 100}, "of the skeleton, pixels");
+  table.flag("--wireframe", options_.wireframe, "draw the edges of the triangles");
+  table.number("-t,--threads", execution_.threads, {0, 4096}, "0: as many as the machine has");
+}
+
+int RenderCommand::run() {
+  if (files_.size() < 2 || files_.size() > 3)
     throw UsageError("render takes a mesh, perhaps a skeleton, and a picture");
-  if (files.back() != "-" && std::filesystem::path(files.back()).extension() != ".png")
-    throw UsageError(files.back() + ": pictures are .png files");
-  std::vector<FileRole> read{{files.front(), "the mesh"}};
-  if (files.size() == 3) read.push_back({files[1], "the skeleton"});
-  read.push_back({segments, "the parts"});
-  refuse_shared_files(read, {{files.back(), "the picture"}});
+  if (files_.back() != "-" && std::filesystem::path(files_.back()).extension() != ".png")
+    throw UsageError(files_.back() + ": pictures are .png files");
+  std::vector<FileRole> read{{files_.front(), "the mesh"}};
+  if (files_.size() == 3) read.push_back({files_[1], "the skeleton"});
+  read.push_back({segments_, "the parts"});
+  refuse_shared_files(read, {{files_.back(), "the picture"}});
 
   RenderScene scene;
-  scene.surface = read_polygon_soup(files.front());
-  if (!segments.empty()) color_by_part(scene, read_parts(segments));
-  if (files.size() == 3) scene.skeleton = read_skeleton(files[1]);
-  write_file_atomically(files.back(), encode_png(render(scene, options, execution)));
+  scene.surface = read_polygon_soup(files_.front());
+  if (!segments_.empty()) color_by_part(scene, read_parts(segments_));
+  if (files_.size() == 3) scene.skeleton = read_skeleton(files_[1]);
+  write_file_atomically(files_.back(), encode_png(render(scene, options_, execution_)));
   return 0;
+}
+
+}  // namespace
+
+std::unique_ptr<Command> make_render_command(const std::vector<std::string>&) {
+  return std::make_unique<RenderCommand>();
 }
 
 }  // namespace mspskel::cli

@@ -1,5 +1,6 @@
 #include "terminal.h"
 
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -9,18 +10,33 @@
 namespace mspskel::cli {
 namespace {
 
+using std::chrono::milliseconds;
+
+constexpr milliseconds kRewriteEvery(100), kLineEvery(3000);
+
+bool understands_escapes() {
+  const char* term = std::getenv("TERM");
+  return isatty(STDERR_FILENO) == 1 && term != nullptr && std::strcmp(term, "dumb") != 0;
+}
+
 bool wants_colour() {
   const char* no_colour = std::getenv("NO_COLOR");
-  const char* term = std::getenv("TERM");
-  return (no_colour == nullptr || *no_colour == '\0') && term != nullptr && std::strcmp(term, "dumb") != 0;
+  return no_colour == nullptr || *no_colour == '\0';
+}
+
+// Letters that fit on a line of the terminal.
+std::size_t columns() {
+  winsize size{};
+  const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  return known ? size.ws_col - 1u : 79u;
 }
 
 }  // namespace
 
 Terminal::Terminal(Verbosity verbosity)
-    : verbosity_(verbosity),
-      is_terminal_(isatty(STDERR_FILENO) == 1),
-      coloured_(is_terminal_ && wants_colour()) {}
+    : verbosity_(verbosity), rewrites_(understands_escapes()), coloured_(rewrites_ && wants_colour()) {
+  if (rewrites_) last_progress_ -= kRewriteEvery;  // the first one at once
+}
 
 void Terminal::line(const char* label, const char* colour, const std::string& message) {
   clear_progress();
@@ -39,13 +55,24 @@ void Terminal::note(const std::string& message) {
 }
 
 void Terminal::progress(const char* stage, double fraction) {
-  if (!is_terminal_ || verbosity_ == Verbosity::kQuiet) return;
-  const auto time = std::chrono::steady_clock::now();
-  if (progress_shown_ && time - last_progress_ < std::chrono::milliseconds(100)) return;
+  if (verbosity_ == Verbosity::kQuiet) return;
+  const double share = estimate_.share(stage, fraction);
+  const Clock::time_point time = Clock::now();
+  if (time - last_progress_ < (rewrites_ ? kRewriteEvery : kLineEvery)) return;
   last_progress_ = time;
-  progress_shown_ = true;
-  std::fprintf(stderr, "\r%3d %% %s\033[K", static_cast<int>(100 * fraction), stage);
+  const std::string percent = std::to_string(static_cast<int>(100 * share)) + " %";
+  const std::string left = time_left(std::chrono::duration<double>(time - begin_).count(), share);
+  const std::string text = percent + ", " + stage + (left.empty() ? "" : ", " + left);
+  if (rewrites_)
+    write_over(text);
+  else
+    std::fprintf(stderr, "mspskel: %s\n", text.c_str());
   std::fflush(stderr);
+}
+
+void Terminal::write_over(const std::string& text) {
+  progress_shown_ = true;
+  std::fprintf(stderr, "\r%s\033[K", text.substr(0, columns()).c_str());
 }
 
 void Terminal::clear_progress() {

@@ -6,8 +6,9 @@ from typing import TypedDict, Union
 
 
 class OptionKeywords(TypedDict, total=False):
-    """``mspskel --help`` says what they mean, and so does ``mspskel.options.describe()``."""
+    """``mspskel --help-all`` says what they mean, and so does ``mspskel.options.describe()``."""
 
+    for_: str
     mode: str
     threads: float
     seed: float

@@ -8,13 +8,6 @@ from typing import Any, Mapping
 from . import _core
 from .errors import UsageError
 
-#: What suits a kind of model; every name and value is one of the command line's.
-PRESETS: Mapping[str, Mapping[str, Any]] = {
-    "shapes": {},
-    "neurons": {"smallest": 0.004, "limb_vertices": 20000, "components": "largest"},
-    "thesis": {"mode": "thesis"},
-}
-
 
 class Options:
     """The options of a run: keyword arguments with the command line's names, ``-`` written as ``_``.
@@ -29,10 +22,11 @@ class Options:
 
     @classmethod
     def for_(cls, kind: str, **keywords: Any) -> Options:
-        """Options for a kind of model, "shapes", "neurons" or "thesis"; further keywords go before."""
-        if kind not in PRESETS:
-            raise UsageError(f"{kind} is none of {', '.join(PRESETS)}")
-        return cls(**{**PRESETS[kind], **keywords})
+        """Options for a kind of model: "general", "vessels", "neurons", "plants", "cad" or "characters".
+
+        What each sets is in docs/presets.md. Keywords that are given come before it.
+        """
+        return cls(**{"for": kind, **keywords})
 
     @property
     def given(self) -> dict[str, Any]:

@@ -39,3 +39,19 @@ def test_the_page_has_the_options_of_the_batch():
     used = set(re.findall(r"mspskel batch .*", block))
     for line in used:
         assert set(re.findall(r" (--[a-z-]+)", line)) <= known | {"--smallest"}
+
+
+def test_the_recipes_run(tmp_path, monkeypatch):
+    blocks = re.findall(r"^```python\n(.*?)^```", (DOCS / "recipes.md").read_text(), re.M | re.S)
+    assert len(blocks) == 3
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "out").mkdir()
+    mesh = mspskel.sample("quadruped")
+    mspskel.skeletonize(mesh).to("out/cell.swc")
+    for block in blocks:
+        code = compile(block, "recipes.md", "exec")
+        if "import bpy" in block:
+            continue  # Blender's own Python alone has it
+        if "import navis" in block:
+            pytest.importorskip("navis")
+        exec(code, {"mspskel": mspskel, "mesh": mesh})

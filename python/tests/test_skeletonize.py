@@ -112,7 +112,17 @@ def test_options_reach_the_engine():
     assert values["slice-method"] == "sampling"  # a default of the mode
     assert options.replace(cone=True).values["cone"] is True
     assert mspskel.Options(repair=False).values["repair"] == "off"
-    assert mspskel.Options.for_("neurons", smallest=0.002).values["smallest"] == 0.002
+
+
+def test_options_for_a_kind_of_model():
+    neurons = mspskel.Options.for_("neurons").values
+    assert (neurons["for"], neurons["coarsen"]) == ("neurons", False)
+    given = mspskel.Options.for_("neurons", smallest=0.002)
+    assert given.values == {**neurons, "smallest": 0.002}
+    assert given.values == mspskel.Options(smallest=0.002, for_="neurons").values
+    assert mspskel.Options.for_("general").values == mspskel.Options().values
+    with pytest.raises(mspskel.UsageError, match="did you mean vessels"):
+        mspskel.Options.for_("vesels")
 
 
 def test_keywords_are_the_options():

@@ -4,6 +4,7 @@
 
 #include "append_text.h"
 #include "mspskel/base/error.h"
+#include "mspskel/base/near_name.h"
 #include "mspskel/io/atomic_file.h"
 #include "read_bytes.h"
 
@@ -118,7 +119,7 @@ MeshFormat output_format_of(const std::string& path) {
   if (extension == "off") return MeshFormat::kOff;
   if (extension == "obj") return MeshFormat::kObj;
   if (extension == "ply") return MeshFormat::kPly;
-  throw UsageError("cannot tell the mesh format of " + path + ": known extensions are .off .obj .ply");
+  throw unknown_extension("mesh format", path, {".off", ".obj", ".ply"});
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "append_text.h"
 #include "mspskel/base/error.h"
+#include "mspskel/base/near_name.h"
 #include "mspskel/io/atomic_file.h"
 #include "read_bytes.h"
 
@@ -42,7 +43,7 @@ SegmentFormat segment_format_of(const std::string& path) {
   const std::string extension = detail::extension_of(path);
   if (extension == "seg") return SegmentFormat::kSeg;
   if (extension == "ply") return SegmentFormat::kPly;
-  throw UsageError("cannot tell the format of the parts in " + path + ": known extensions are .seg .ply");
+  throw unknown_extension("parts' format", path, {".seg", ".ply"});
 }
 
 VertexColor color_of_part(Index part) {

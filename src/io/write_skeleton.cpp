@@ -6,6 +6,7 @@
 #include "append_text.h"
 #include "mesh_parsers.h"
 #include "mspskel/base/error.h"
+#include "mspskel/base/near_name.h"
 #include "mspskel/io/atomic_file.h"
 #include "write_vtp.h"
 
@@ -151,15 +152,19 @@ std::string format_graphml(const CurveSkeleton& skeleton) {
 
 SkeletonFormat skeleton_format_of(const std::string& path) {
   if (path == "-") return SkeletonFormat::kSkel;
-  std::string known;
   for (const Extension& extension : kExtensions) {
     const std::string_view text = extension.text;
     if (path.size() > text.size() &&
         detail::equals_ignoring_case(std::string_view(path).substr(path.size() - text.size()), text))
       return extension.format;
-    known += " " + std::string(text);
   }
-  throw UsageError("cannot tell the skeleton format of " + path + ": known extensions are" + known);
+  throw unknown_extension("skeleton format", path, skeleton_extensions());
+}
+
+std::vector<std::string> skeleton_extensions() {
+  std::vector<std::string> names;
+  for (const Extension& extension : kExtensions) names.emplace_back(extension.text);
+  return names;
 }
 
 void refuse_not_finite(const CurveSkeleton& skeleton) {

@@ -6,31 +6,14 @@
 #include <cstdint>
 #include <iostream>
 #include <limits>
-#include <memory>
-#include <numeric>
-#include <sstream>
+#include <stdexcept>
 
+#include "help_text.h"
 #include "mspskel/base/error.h"
+#include "mspskel/base/near_name.h"
 
 namespace mspskel::cli {
 namespace {
-
-// Typing errors between two words: letters left out, put in, mistaken or swapped.
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> before, last(b.size() + 1), row(b.size() + 1);
-  std::iota(last.begin(), last.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] != b[j - 1])});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-        row[j] = std::min(row[j], before[j - 2] + 1);
-    }
-    before = last;
-    last = row;
-  }
-  return last[b.size()];
-}
 
 // The shortest text that reads back the same, whole numbers without an exponent.
 std::string number_text(double x) {
@@ -41,64 +24,7 @@ std::string number_text(double x) {
   return {digits, end.ptr};
 }
 
-// `text` in lines of at most `width` letters.
-std::vector<std::string> wrap(const std::string& text, std::size_t width) {
-  std::vector<std::string> lines(1);
-  std::istringstream words(text);
-  for (std::string word; words >> word;) {
-    if (!lines.back().empty() && lines.back().size() + 1 + word.size() > width) lines.emplace_back();
-    lines.back() += (lines.back().empty() ? "" : " ") + word;
-  }
-  return lines;
-}
-
-// Our line of usage, and options as "-t,--threads N   text [default]".
-class HelpFormatter : public CLI::Formatter {
- public:
-  explicit HelpFormatter(std::string usage) : usage_(std::move(usage)) {}
-
-  std::string make_usage(const CLI::App*, std::string) const override {
-    return "\nUsage: mspskel " + usage_ + "\n";
-  }
-
-  std::string make_option(const CLI::Option* option, bool positional) const override {
-    constexpr std::size_t kColumn = 32, kWidth = 100;
-    std::string name = "  " + option->get_name(positional, true);
-    if (!option->get_fnames().empty()) name = "  --[no-]" + option->get_lnames().front();
-    if (option->get_option_text() != " " && !option->get_option_text().empty())
-      name += " " + option->get_option_text();
-    std::string help = option->get_description();
-    if (!option->get_default_str().empty()) help += " [" + option->get_default_str() + "]";
-    std::string result = std::move(name);
-    if (result.size() + 2 > kColumn) result += "\n";
-    std::size_t begin = result.back() == '\n' ? 0 : result.size();
-    for (const std::string& line : wrap(help, kWidth - kColumn)) {
-      result += std::string(kColumn - begin, ' ') + line + "\n";
-      begin = 0;
-    }
-    return result;
-  }
-
- private:
-  std::string usage_;
-};
-
 }  // namespace
-
-std::string nearest(const std::string& word, const std::vector<std::string>& known) {
-  std::string best;
-  std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
-  for (const std::string& candidate : known) {
-    // A beginning of a name counts as one error: --sat means --saturation.
-    const bool begins = word.size() > 3 && candidate.compare(0, word.size(), word) == 0;
-    const std::size_t distance = begins ? 1 : edit_distance(word, candidate);
-    if (distance < best_distance) {
-      best_distance = distance;
-      best = candidate;
-    }
-  }
-  return best;
-}
 
 std::string range_text(Range range) {
   if (range.high < std::numeric_limits<double>::infinity())
@@ -117,17 +43,23 @@ std::string check_range(const std::string& value, Range range) {
 
 std::string check_word(const std::string& value, const std::vector<std::string>& words) {
   if (std::find(words.begin(), words.end(), value) != words.end()) return {};
-  const std::string near = nearest(value, words);
-  return value + " is none of " + CLI::detail::join(words, ", ") +
-         (near.empty() ? "" : "; did you mean " + near + "?");
+  return value + " is none of " + CLI::detail::join(words, ", ") + did_you_mean(value, words);
 }
 
-CommandLine::CommandLine(const std::string& usage, const std::string& description, const std::string& footer)
-    : app_(description) {
-  app_.formatter(std::make_shared<HelpFormatter>(usage));
-  app_.footer(footer);
+CommandLine::CommandLine(const std::string& usage, const std::string& description)
+    : app_(description), usage_(usage) {
   app_.set_help_flag("-h,--help", "print this help and exit");
   app_.allow_extras();  // answered by refuse_unknown, with a suggestion
+}
+
+void CommandLine::short_help(const std::vector<ShortGroup>& groups) {
+  app_.set_help_flag("-h,--help", "print the options that most people need and exit");
+  app_.set_help_all_flag("--help-all", "print all options and exit");
+  for (const ShortGroup& group : groups)
+    for (const std::string& name : group.names)
+      if (app_.get_option_no_throw("--" + name) == nullptr)
+        throw std::logic_error("no option --" + name + " for the short help");
+  short_groups_ = groups;
 }
 
 CLI::Option* CommandLine::add(CLI::Option* option, const std::string& value, std::function<Json()> value_of) {
@@ -136,13 +68,16 @@ CLI::Option* CommandLine::add(CLI::Option* option, const std::string& value, std
   return option;
 }
 
-CLI::Option* CommandLine::argument(const std::string& name, std::string& target, const std::string& help) {
-  return app_.add_option(name, target, help)->option_text(" ");
+CLI::Option* CommandLine::argument(const std::string& name, std::string& target, const std::string& help,
+                                   const std::vector<std::string>& words) {
+  arguments_.push_back({name, help, words});
+  return app_.add_option(name, target, help);
 }
 
 CLI::Option* CommandLine::arguments(const std::string& name, std::vector<std::string>& target,
                                     const std::string& help) {
-  return app_.add_option(name, target, help)->option_text(" ");
+  arguments_.push_back({name, help, {}});
+  return app_.add_option(name, target, help);
 }
 
 void CommandLine::flag(const std::string& names, bool& target, const std::string& help) {
@@ -170,7 +105,10 @@ bool CommandLine::parse(const std::vector<std::string>& arguments) {
   try {
     app_.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   } catch (const CLI::CallForHelp&) {
-    std::cout << app_.help();
+    std::cout << help_text(*this);
+    return false;
+  } catch (const CLI::CallForAllHelp&) {
+    std::cout << full_help_text(*this);
     return false;
   } catch (const CLI::ParseError& error) {
     refuse_unknown();
@@ -178,6 +116,13 @@ bool CommandLine::parse(const std::vector<std::string>& arguments) {
   }
   refuse_unknown();
   return true;
+}
+
+void CommandLine::set_unless_given(const std::string& name, const std::string& value) {
+  CLI::Option* option = app_.get_option("--" + name);
+  if (option->count() > 0) return;
+  option->add_result(value);
+  option->run_callback();
 }
 
 void CommandLine::refuse_unknown() const {
@@ -193,8 +138,7 @@ void CommandLine::refuse_unknown() const {
   for (const CLI::Option* option : app_.get_options()) {
     for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
   }
-  const std::string near = nearest(word, known);
-  throw UsageError("unknown option " + word + (near.empty() ? "" : "; did you mean " + near + "?"));
+  throw UsageError("unknown option " + word + did_you_mean(word, known));
 }
 
 Json CommandLine::values() const {
@@ -203,13 +147,26 @@ Json CommandLine::values() const {
   return values;
 }
 
+OptionEntry CommandLine::entry_of(const CLI::Option& option) const {
+  const std::string& name = option.get_lnames().front();
+  const std::string spelling = option.get_fnames().empty() ? option.get_name(false, true) : "--[no-]" + name;
+  return {name,
+          spelling,
+          option.get_group(),
+          option.get_option_text(),
+          option.get_default_str(),
+          option.get_description()};
+}
+
 std::vector<OptionEntry> CommandLine::entries() const {
   std::vector<OptionEntry> entries;
-  for (const auto& listed : values_) {
-    const CLI::Option* option = app_.get_option("--" + listed.first);
-    entries.push_back({listed.first, option->get_group(), option->get_option_text(),
-                       option->get_default_str(), option->get_description()});
-  }
+  for (const auto& listed : values_) entries.push_back(entry_of(*app_.get_option("--" + listed.first)));
+  return entries;
+}
+
+std::vector<OptionEntry> CommandLine::help_entries() const {
+  std::vector<OptionEntry> entries{entry_of(*app_.get_help_ptr())};
+  if (!short_groups_.empty()) entries.push_back(entry_of(*app_.get_help_all_ptr()));
   return entries;
 }
 

@@ -19,20 +19,45 @@ struct Range {
 
 // What --help says of an option.
 struct OptionEntry {
-  std::string name;   // without dashes
-  std::string group;  // heading
-  std::string value;  // N, FILE, words with bars between them; empty for a switch
+  std::string name;      // without dashes
+  std::string spelling;  // -t,--threads; --[no-]coarsen
+  std::string group;     // heading
+  std::string value;     // N, FILE, words with bars between them; empty for a switch
   std::string initial;
   std::string help;
+};
+
+// What --help says of an argument that has a place, not a name.
+struct ArgumentEntry {
+  std::string name;
+  std::string help;
+  std::vector<std::string> words;  // that it may be; empty: a file
+};
+
+// Lines that stand below the options under a heading of their own.
+struct HelpSection {
+  std::string heading;
+  std::string text;   // every line ends in a newline
+  bool brief = true;  // also in a short help
+};
+
+// Names of options, without dashes, that stand together in a short help.
+struct ShortGroup {
+  std::string heading;
+  std::vector<std::string> names;
 };
 
 // One command's options. Errors are UsageErrors; an unknown option is answered with the nearest known one.
 class CommandLine {
  public:
-  // `usage` is the line of arguments after the program's name.
-  CommandLine(const std::string& usage, const std::string& description, const std::string& footer = "");
+  // `usage` is the whole line, with the program's name.
+  CommandLine(const std::string& usage, const std::string& description);
+  CommandLine(const CommandLine&) = delete;  // options refer to it
+  CommandLine& operator=(const CommandLine&) = delete;
 
-  CLI::Option* argument(const std::string& name, std::string& target, const std::string& help);
+  // `words`: what it may be, for completion; empty for a file.
+  CLI::Option* argument(const std::string& name, std::string& target, const std::string& help,
+                        const std::vector<std::string>& words = {});
   CLI::Option* arguments(const std::string& name, std::vector<std::string>& target, const std::string& help);
 
   // The options that follow are listed under this heading.
@@ -53,23 +78,43 @@ class CommandLine {
   template <class Number>
   void number(const std::string& names, Number& target, Range range, const std::string& help);
 
-  // False if --help was asked for and has been printed to stdout. Throws UsageError.
+  void section(HelpSection section) { sections_.push_back(std::move(section)); }
+  // --help is to show these options only, and --help-all is to show all. After all options are listed; throws
+  // std::logic_error for a name that is none.
+  void short_help(const std::vector<ShortGroup>& groups);
+
+  // False if help was asked for and has been printed to stdout. Throws UsageError.
   bool parse(const std::vector<std::string>& arguments);
+  // Whether there is such an option, its name without dashes.
+  bool has(const std::string& name) const { return app_.get_option_no_throw("--" + name) != nullptr; }
+  // After parsing: gives a value to an option that has none from the words that were parsed.
+  void set_unless_given(const std::string& name, const std::string& value);
   // Whether the option was given.
   bool given(const std::string& name) const { return app_.count(name) > 0; }
   // Values of all options, by name without dashes, in order of their listing.
   Json values() const;
-  std::string help() const { return app_.help(); }
-  // All options in order of their listing.
+  // All options that have values, in order of their listing.
   std::vector<OptionEntry> entries() const;
+  // Those that ask for help, which stand in the first group.
+  std::vector<OptionEntry> help_entries() const;
+  const std::vector<ArgumentEntry>& arguments() const { return arguments_; }
+  const std::vector<HelpSection>& sections() const { return sections_; }
+  const std::vector<ShortGroup>& short_groups() const { return short_groups_; }
+  const std::string& usage() const { return usage_; }
+  std::string description() const { return app_.get_description(); }
 
  private:
   CLI::Option* add(CLI::Option* option, const std::string& value, std::function<Json()> value_of);
+  OptionEntry entry_of(const CLI::Option& option) const;
   void refuse_unknown() const;
 
   CLI::App app_;
+  std::string usage_;
   std::string group_ = "Options";
   std::vector<std::pair<std::string, std::function<Json()>>> values_;
+  std::vector<ArgumentEntry> arguments_;
+  std::vector<HelpSection> sections_;
+  std::vector<ShortGroup> short_groups_;
 };
 
 // Seeds are exact in JSON and in doubles.
@@ -109,8 +154,5 @@ void CommandLine::choice(const std::string& names, Value& target,
   option->default_str(word_of());
   add(option, CLI::detail::join(words, "|"), [word_of] { return Json(word_of()); });
 }
-
-// The entry of `known` that is the fewest typing errors away; empty if none is near.
-std::string nearest(const std::string& word, const std::vector<std::string>& known);
 
 }  // namespace mspskel::cli

@@ -1,5 +1,6 @@
 #include "root_option.h"
 
+#include <algorithm>
 #include <charconv>
 
 #include "mspskel/base/counted.h"
@@ -22,9 +23,11 @@ bool parse_numbers(const std::string& text, std::size_t at, double* values, int 
 }  // namespace
 
 void RootOption::add_to(CommandLine& line) {
-  line.text("--root", text, "thickest|tip|point:X,Y,Z|open:K",
-            "where trees (.swc) and centrelines (.vtp) begin: the thickest node, the thickest end, the node "
-            "nearest to a point or to the K-th open end (from 0, as the report lists them)");
+  line.text(
+      "--root", text, "thickest|tip|open|open:K|point:X,Y,Z",
+      "where trees (.swc) and centrelines (.vtp) begin: the thickest node, the thickest end, the end at "
+      "the widest opening (the thickest end where nothing is open), that at the K-th one (from 0, as "
+      "the report lists them), the node nearest to a point");
 }
 
 RootChoice RootOption::resolve(const std::vector<Opening>& openings) const {
@@ -32,6 +35,15 @@ RootChoice RootOption::resolve(const std::vector<Opening>& openings) const {
   if (text == "thickest") return choice;
   choice.kind = RootChoice::Kind::kTip;
   if (text == "tip") return choice;
+  if (text == "open") {
+    const auto widest =
+        std::max_element(openings.begin(), openings.end(),
+                         [](const Opening& a, const Opening& b) { return a.radius < b.radius; });
+    if (widest == openings.end()) return choice;
+    choice.kind = RootChoice::Kind::kPoint;
+    choice.point = widest->centre;
+    return choice;
+  }
   choice.kind = RootChoice::Kind::kPoint;
   double numbers[3] = {0, 0, 0};
   if (text.rfind("point:", 0) == 0 && parse_numbers(text, 6, numbers, 3)) {
@@ -47,7 +59,7 @@ RootChoice RootOption::resolve(const std::vector<Opening>& openings) const {
     choice.point = openings[k].centre;
     return choice;
   }
-  throw UsageError("--root: expected thickest, tip, point:X,Y,Z or open:K, not '" + text + "'");
+  throw UsageError("--root: expected thickest, tip, open, open:K or point:X,Y,Z, not '" + text + "'");
 }
 
 }  // namespace mspskel::cli

@@ -134,7 +134,8 @@ RunOptionTable::RunOptionTable(const std::vector<std::string>& arguments, RunOpt
 }
 
 void RunOptionTable::add_general(CommandLine& line) {
-  line.group("General");
+  line.group("Options");
+  preset_.add_to(line);
   line.choice<Mode>("--mode", target_.extract.mode, {{"default", Mode::kDefault}, {"thesis", Mode::kThesis}},
                     "thesis: every formula and constant as printed; changes the defaults below");
   line.number("-t,--threads", target_.extract.execution.threads, {0, 4096}, "0: as many as the machine has");
@@ -149,7 +150,8 @@ void RunOptionTable::add_stages(CommandLine& line) {
   add_arc_options(line, target_.extract, step_, detail_);
 }
 
-void RunOptionTable::resolve(const CommandLine& line) {
+void RunOptionTable::resolve(CommandLine& line) {
+  preset_.apply(line);
   ExtractOptions& options = target_.extract;
   target_.repair.resolve();
   options.cone.seed = seed_;

@@ -8,6 +8,7 @@
 #include "command_line.h"
 #include "mesh_input.h"
 #include "mspskel/extract_skeleton.h"
+#include "presets.h"
 
 namespace mspskel::cli {
 
@@ -25,13 +26,14 @@ class RunOptionTable {
   // Sets the target to the defaults of the mode that the arguments ask for.
   RunOptionTable(const std::vector<std::string>& arguments, RunOptions& target);
 
-  void add_general(CommandLine& line);  // mode, threads, seed, time limit
+  void add_general(CommandLine& line);  // preset, mode, threads, seed, time limit
   void add_stages(CommandLine& line);   // slices, skeletal points, collapse, arcs
-  // After parsing: options that stand for several settings. Throws UsageError.
-  void resolve(const CommandLine& line);
+  // After parsing: the preset, and options that stand for several settings. Throws UsageError.
+  void resolve(CommandLine& line);
 
  private:
   RunOptions& target_;
+  PresetOption preset_;
   std::uint64_t seed_ = 0;
   int planes_ = 0;
   double step_ = 0, usual_step_ = 0, detail_ = 1;

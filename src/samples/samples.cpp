@@ -8,6 +8,7 @@
 
 #include "families.h"
 #include "mspskel/base/error.h"
+#include "mspskel/base/near_name.h"
 #include "noise.h"
 
 namespace mspskel {
@@ -65,34 +66,15 @@ const std::vector<Family>& families() {
   return all;
 }
 
-// Levenshtein's distance.
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replace = diagonal + (a[i - 1] != b[j - 1]);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replace});
-    }
-  }
-  return row.back();
-}
-
 const Family& find_family(const std::string& name) {
-  const Family* nearest = nullptr;
-  std::size_t best = 0;
+  std::vector<std::string> names;
   for (const Family& family : families()) {
     if (family.info.name == name) return family;
-    const std::size_t distance = edit_distance(family.info.name, name);
-    if (!nearest || distance < best) {
-      best = distance;
-      nearest = &family;
-    }
+    names.push_back(family.info.name);
   }
-  throw UsageError("no sample is called '" + name + "'; the nearest name is '" + nearest->info.name + "'");
+  const std::string near = did_you_mean(name, names);
+  throw UsageError("no sample is called '" + name + "'" +
+                   (near.empty() ? "; mspskel sample --help lists them" : near));
 }
 
 std::string number(double x) {

@@ -81,6 +81,15 @@ class Info(ProgramTest):
         self.run_program("open.off", "a.swc", "--root", "open:0", "-q")
         root = [line for line in (self.folder / "a.swc").read_text().splitlines() if line.endswith(" -1")][0]
         self.assertAlmostEqual(float(root.split()[4]), top, delta=0.05)
+        first = (self.folder / "a.swc").read_bytes()
+        self.run_program("open.off", "a.swc", "--root", "open", "-q")
+        self.assertEqual((self.folder / "a.swc").read_bytes(), first)
+
+    def test_the_root_at_an_opening_is_the_thickest_end_where_nothing_is_open(self):
+        self.succeed(self.sample("y-tube", 800), "a.skel")
+        self.succeed("convert", "a.skel", "open.swc", "--root", "open", "-q")
+        self.succeed("convert", "a.skel", "tip.swc", "--root", "tip", "-q")
+        self.assertEqual((self.folder / "open.swc").read_bytes(), (self.folder / "tip.swc").read_bytes())
 
 
 if __name__ == "__main__":

@@ -12,15 +12,15 @@ import unittest
 from program import PROGRAM, SOURCE, ProgramTest
 
 PAGE = SOURCE / "docs" / "command_line.md"
-COMMANDS = ["", "sample", "render", "check", "convert", "info"]
+COMMANDS = ["sample", "render", "check", "convert", "info", "completion", "man"]
 
 
 def page():
     """What docs/command_line.md must be."""
-    text = "# The command line\n\nWhat `--help` prints, command by command.\n"
-    for command in COMMANDS:
-        words = [command] if command else []
-        printed = subprocess.run([PROGRAM, *words, "--help"], capture_output=True, text=True, check=True).stdout
+    text = "# The command line\n\nWhat `--help` prints, command by command; of the first one `--help-all`.\n"
+    for command in ["", *COMMANDS]:
+        words = [command, "--help"] if command else ["--help-all"]
+        printed = subprocess.run([PROGRAM, *words], capture_output=True, text=True, check=True).stdout
         text += f"\n## mspskel {command}".rstrip() + f"\n\n```text\n{printed.strip()}\n```\n"
     return text
 

@@ -130,10 +130,10 @@ class Report(ProgramTest):
 
     def test_every_option_of_the_help_is_reported(self):
         options = self.report(self.sample(), "a.skel")["options"]
-        text = self.succeed("--help").decode()
+        text = self.succeed("--help-all").decode()
         listed = {word for line in text.splitlines() if line.startswith("  -") for word in line.split()
                   if "--" in word}
-        names = {word.split("--")[-1].replace("[no-]", "") for word in listed} - {"help"}
+        names = {word.split("--")[-1].replace("[no-]", "") for word in listed} - {"help", "help-all"}
         self.assertEqual(names, set(options))
 
     def test_path_that_is_not_utf8(self):
@@ -229,6 +229,54 @@ class Terminals(ProgramTest):
         mesh = self.sample("torus", 600)
         self.assertIn(b" %", self.seen(mesh, "a.skel"))
         self.assertEqual(self.seen(mesh, "a.skel", "--quiet"), b"")
+
+    # Long enough that the limit ends it.
+    LONG = ["--mode", "thesis", "--slices", "100", "--time-limit", "4"]
+
+    def shares(self, lines):
+        found = [re.fullmatch(r"(\d+) %, [a-z ]+(?:, (about \d+ (?:s|min|h) left))?", line) for line in lines]
+        self.assertNotIn(None, found, lines)
+        self.assertEqual(lines, sorted(lines, key=lambda line: int(line.split()[0])))
+        if int(found[-1][1]) >= 10:  # on a slow machine it may be too early to tell
+            self.assertTrue(any(match[2] for match in found), lines)
+
+    def test_progress_is_a_line_that_is_written_over(self):
+        mesh = self.sample("torus", 20000)
+        progress, message = self.seen(mesh, "a.skel", *self.LONG).decode().rsplit("\r\x1b[K", 1)
+        self.shares([line for line in progress.replace("\x1b[K", "").split("\r") if line])
+        self.assertIn("time limit", message)
+        self.assertNotIn("\n", progress)
+        without_colour = self.seen(self.sample("torus", 600), "a.skel", NO_COLOR="1")
+        self.assertIn(b"\r", without_colour)
+        self.assertNotIn(b"\x1b[1;", without_colour)
+
+    def test_progress_elsewhere_is_plain_lines(self):
+        mesh = self.sample("torus", 20000)
+        dumb = self.seen(mesh, "a.skel", *self.LONG, TERM="dumb").decode().replace("\r\n", "\n")
+        for text in [dumb, self.run_program(mesh, "a.skel", *self.LONG).stderr.decode()]:
+            self.assertNotIn("\x1b", text)
+            self.assertNotIn("\r", text)
+            self.shares([line.removeprefix("mspskel: ") for line in text.splitlines()[:-1]])
+
+    def test_progress_of_several_components_never_falls(self):
+        self.sample("torus", 6000)
+        self.sample("sphere", 300)
+        parts = []
+        for k, name in enumerate(["torus.off", "sphere.off", "torus.off"]):
+            lines = (self.folder / name).read_text().split("\n")
+            count, faces = map(int, lines[1].split()[:2])
+            points = [[float(x) + 5 * k for x in line.split()] for line in lines[2 : 2 + count]]
+            parts.append((points, [[int(i) for i in line.split()[1:4]] for line in lines[2 + count : 2 + count + faces]]))
+        points, faces = [], []
+        for own, triangles in parts:
+            faces += [[i + len(points) for i in triangle] for triangle in triangles]
+            points += own
+        text = f"OFF\n{len(points)} {len(faces)} 0\n" + "".join(f"{x} {y} {z}\n" for x, y, z in points)
+        mesh = self.write("three.off", text + "".join(f"3 {a} {b} {c}\n" for a, b, c in faces))
+        seen = self.seen(mesh, "a.skel", "--mode", "thesis").decode()
+        shares = [int(share) for share in re.findall(r"\r(\d+) %", seen)]
+        self.assertEqual(shares, sorted(shares))
+        self.assertGreater(max(shares), 60)
 
     def test_colour(self):
         self.assertIn(b"\x1b[1;31m", self.seen("absent.off"))

@@ -45,7 +45,7 @@ def numbers(text):
 
 class Ranges(ProgramTest):
     def test_help_is_understood(self):
-        text = self.succeed("--help").decode()
+        text = self.succeed("--help-all").decode()
         self.assertEqual(len(list(numbers(text))), len(re.findall(r"^  (?:-\w,)?--[\w-]+ N\b", text, re.M)))
         self.assertGreater(len(list(numbers(text))), 25)
 
@@ -65,7 +65,7 @@ class Ranges(ProgramTest):
 
     def test_both_ends_of_every_range(self):
         wrong = []
-        options = dict(numbers(self.succeed("--help").decode()))
+        options = dict(numbers(self.succeed("--help-all").decode()))
         for sample, vertices in SAMPLES:
             mesh = self.sample(sample, vertices)
             for mode in ["default", "thesis"]:

@@ -1,4 +1,5 @@
 """Arguments: what is wrong with them is said by name, with the nearest good one, and ends with status 1."""
+import re
 import unittest
 
 from program import READ, USAGE, ProgramTest
@@ -55,7 +56,25 @@ class Usage(ProgramTest):
         self.assertIn("too many", self.fail_with(USAGE, "check", "--", "a", "b", "--json"))
 
     def test_unknown_sample(self):
-        self.assertIn("torus", self.fail_with(USAGE, "sample", "toros"))
+        self.assertIn("did you mean torus?", self.fail_with(USAGE, "sample", "toros"))
+        self.assertIn("--help", self.fail_with(USAGE, "sample", "xylophone"))
+
+    def test_mistyped_command(self):
+        self.assertIn("did you mean check?", self.fail_with(USAGE, "chekc", "a.off", "a.skel"))
+        self.assertIn("did you mean render?", self.fail_with(USAGE, "rendr", "a.off", "a.png"))
+        self.assertNotIn("did you mean", self.fail_with(READ, "xylophone", "a.skel"))
+        self.write("chekc", "no mesh at all\n")
+        self.assertNotIn("did you mean", self.fail_with(READ, "chekc", "a.skel"))
+
+    def test_unknown_extensions_are_answered_with_the_nearest(self):
+        for output, near in [("a.skl", ".skel"), ("a.htlm", ".html"), ("a.gbl", ".glb"), ("a.polyline.txt", ".polylines.txt"),
+                             ("folder.skel/a.swcc", ".swc")]:
+            message = self.fail_with(USAGE, "absent.off", output)
+            self.assertIn(f"did you mean {near}?", message)
+        self.assertNotIn("did you mean", self.fail_with(USAGE, "absent.off", "a.xyz"))
+        self.assertIn("did you mean .off?", self.fail_with(USAGE, "sample", "torus", "a.of"))
+        self.assertIn("did you mean .graphml?", self.fail_with(USAGE, "convert", "a.skel", "a.grapml"))
+        self.assertIn("did you mean .seg?", self.fail_with(USAGE, "a.off", "--segments", "a.sge"))
 
     def test_render_wants_a_png(self):
         self.assertIn("b.jpg", self.fail_with(USAGE, "render", "a.off", "b.jpg"))
@@ -66,11 +85,21 @@ class Usage(ProgramTest):
         self.fail_with(USAGE, "check", "a.off")
 
     def test_help_of_every_command(self):
-        for command in [[], ["sample"], ["render"], ["check"]]:
+        for command in [[], ["sample"], ["render"], ["check"], ["convert"], ["info"], ["completion"], ["man"]]:
             text = self.succeed(*command, "--help").decode()
             self.assertIn("Usage: mspskel", text)
-            self.assertLessEqual(max(map(len, text.splitlines())), 110)
+            self.assertLessEqual(max(map(len, text.splitlines())), 100)
             self.assertEqual(text, self.succeed(*command, "-h").decode())
+
+    def test_short_help_has_what_people_need(self):
+        def options(text):
+            return re.findall(r"^  (-\S+)", text, re.MULTILINE)
+
+        short, full = self.succeed("--help").decode(), self.succeed("--help-all").decode()
+        self.assertLess(len(options(short)), 18)
+        self.assertGreater(len(options(full)), 60)
+        self.assertLessEqual(set(options(short)), set(options(full)))
+        self.assertGreaterEqual(len(re.findall(r"^  mspskel \S+\.\w+ ", short, re.MULTILINE)), 2)  # examples
 
     def test_version_names_the_libraries(self):
         text = self.succeed("--version").decode()

@@ -1,20 +1,20 @@
-// Looks, picks, measures and switches on a page, as a person would. usage: node drive_page.mjs CHROMIUM PAGE
+// Looks, picks, measures and switches on a page, as a person would. usage: node drive_page.mjs CHROMIUM PAGE FINE_PAGE
 import assert from 'node:assert/strict';
 import { chromium } from 'playwright-core';
 
-const [executablePath, path] = process.argv.slice(2);
+const [executablePath, path, finePath] = process.argv.slice(2);
 const browser = await chromium.launch({
   executablePath, headless: true, args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
     '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync'],
 });
 
-async function open(options) {
+async function open(options, file = path) {
   const context = await browser.newContext({ offline: true, ...options });
   const page = await context.newPage(), faults = [];
   page.on('console', message => { if (message.type() === 'error') faults.push(message.text()); });
   page.on('pageerror', error => faults.push(error.message));
   page.on('request', request => { if (!/^(file|data):/.test(request.url())) faults.push(`request of ${request.url()}`); });
-  await page.goto(`file://${path}`);
+  await page.goto(`file://${file}`);
   await page.waitForFunction(() => window.mspskel?.state().frames > 0, null, { timeout: 60000 });
   return { page, faults };
 }
@@ -110,6 +110,23 @@ try {
   assert.equal((await state(phone.page)).picked.branch, node.branch, 'a tap picks');
   assert.ok(await phone.page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), 'nothing sticks out');
   assert.deepEqual(phone.faults, []);
+
+  // A mesh finer than what moves well without a graphics card moves coarsely, and rests finely.
+  const fine = await open({ viewport: { width: 800, height: 600 } }, finePath);
+  await fine.page.waitForFunction(() => !window.mspskel.state().hasty);
+  const atRest = (await state(fine.page)).facesDrawn;
+  const moving = await fine.page.evaluate(() => new Promise(done => {
+    let frame = 0;
+    const turn = () => {
+      document.dispatchEvent(new KeyboardEvent('keydown', { key: 'ArrowLeft' }));
+      if (++frame < 20) requestAnimationFrame(turn);
+      else done(window.mspskel.state());
+    };
+    turn();
+  }));
+  assert.ok(moving.hasty && moving.facesDrawn > 1000 && moving.facesDrawn < atRest / 3, 'a moving view is coarse');
+  await fine.page.waitForFunction(faces => { const s = window.mspskel.state(); return !s.hasty && s.facesDrawn === faces; }, atRest);
+  assert.deepEqual(fine.faults, []);
   console.log('the page answers');
 } finally {
   await browser.close();

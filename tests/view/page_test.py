@@ -36,8 +36,11 @@ def main():
     with tempfile.TemporaryDirectory(prefix="mspskel-page-") as folder:
         page = pathlib.Path(folder) / "quadruped.html"
         subprocess.run([program, str(source / "data" / "quadruped.off"), str(page), "-q"], check=True, timeout=120)
+        fine = pathlib.Path(folder) / "octoped.html"
+        subprocess.run([program, "sample", "octoped", "octoped.off", "--resolution", "12000"], cwd=folder, check=True, timeout=120)
+        subprocess.run([program, "octoped.off", str(fine), "-q"], cwd=folder, check=True, timeout=120)
         shutil.copy(source / "tests" / "view" / "drive_page.mjs", cache / "drive_page.mjs")
-        drive = [node, str(cache / "drive_page.mjs"), chromium, str(page)]
+        drive = [node, str(cache / "drive_page.mjs"), chromium, str(page), str(fine)]
         return subprocess.run(drive, timeout=400).returncode
 
 

@@ -42,6 +42,14 @@ export class View {
     return moving;
   }
 
+  /** Whether it looks another way than when this was asked last. */
+  moved() {
+    const seen = [...this.camera.position.toArray(), ...this.camera.quaternion.toArray()];
+    const moved = this.last !== undefined && seen.some((x, i) => Math.abs(x - this.last[i]) > 1e-6);
+    this.last = seen;
+    return moved;
+  }
+
   reset() {
     const level = new Vector3().addScaledVector(this.toward, Math.cos(kAzimuth)).addScaledVector(this.right, Math.sin(kAzimuth));
     this.lookAlong(level.multiplyScalar(Math.cos(kElevation)).addScaledVector(this.up, Math.sin(kElevation)), this.points);

@@ -1,5 +1,6 @@
 // The surface as a ghost: its front alone, clearer where one looks straight through it; and the skeleton mesh.
 import { BufferAttribute, BufferGeometry, DoubleSide, FrontSide, GLSL3, Mesh, ShaderMaterial } from 'three';
+import { averaged, coarsened } from './coarse.js';
 
 const kVertex = /* glsl */`
 in vec3 tint;
@@ -49,17 +50,44 @@ function paint(made, bytes) {
   made.getAttribute('tint').needsUpdate = true;
 }
 
-/** Drawn after everything that lies inside, twice: depth alone, then colour where it is the nearest. */
+// Vertices of the coarser surface, and how many more the surface must have for it to be worth while.
+const kCoarse = 2500, kWorthWhile = 2;
+
+/**
+ * Drawn after everything that lies inside, twice: depth alone, then colour where it is the nearest. In haste a coarser surface
+ * stands in for a fine one.
+ */
 export class Ghost {
   constructor(surface, order) {
     this.geometry = geometry(surface.position, surface.normal, surface.face);
+    this.surface = surface;
+    this.colors = null;
+    this.coarse = null;
+    this.hasty = false;
     this.depth = new Mesh(this.geometry, material({ side: FrontSide, colorWrite: false, transparent: true }, 1, false));
     this.front = new Mesh(this.geometry, material({ side: FrontSide, transparent: true, depthWrite: false }, 0.3, false));
     this.depth.renderOrder = order;
     this.front.renderOrder = order + 1;
     this.meshes = [this.depth, this.front];
   }
-  paint(bytes) { paint(this.geometry, bytes); }
+  paint(bytes) {
+    paint(this.geometry, bytes);
+    this.colors = bytes.slice();
+    if (this.coarse) this.paintCoarse();
+  }
+  paintCoarse() { paint(this.coarse, averaged(this.colors, this.from, this.coarse.getAttribute('position').count, 3)); }
+  haste(on) {
+    const wanted = on && this.surface.vertexCount > kWorthWhile * kCoarse;
+    if (wanted === this.hasty) return;
+    if (wanted && !this.coarse) {
+      const made = coarsened(this.surface, kCoarse);
+      this.coarse = geometry(made.position, made.normal, made.face);
+      this.from = made.from;
+      this.paintCoarse();
+    }
+    this.hasty = wanted;
+    for (const mesh of this.meshes) mesh.geometry = wanted ? this.coarse : this.geometry;
+  }
   opacity(value) { this.front.material.uniforms.opacity.value = value; }
   show(on) { for (const mesh of this.meshes) mesh.visible = on; }
 }

@@ -41,6 +41,7 @@ export class Graph {
 
   measure(index, nodes) {
     let length = 0, area = 0, least = Infinity, mspArea = 0;
+    const edges = [];
     for (const node of nodes) {
       least = Math.min(least, this.radius[node]);
       if (this.branchOfNode[node] === kNone) this.branchOfNode[node] = index;
@@ -49,6 +50,7 @@ export class Graph {
       const a = nodes[i], b = nodes[i + 1];
       const step = this.neighbours[a].find(n => n.node === b);
       this.branchOfEdge[step.edge] = index;
+      edges.push(step.edge);
       length += step.length;
       area += step.length * (this.radius[a] + this.radius[b]) / 2;
       mspArea += step.length * (this.msp[a] + this.msp[b]) / 2;
@@ -57,7 +59,7 @@ export class Graph {
     const ends = (this.degree(first) === 1) + (this.degree(last) === 1);
     const kind = first === last ? 'loop' : ['link', 'end', 'whole'][ends];
     return {
-      index, nodes, kind,
+      index, nodes, edges, kind,
       length: this.unit * length,
       meanRadius: this.unit * (length > 0 ? area / length : this.radius[first]),
       leastRadius: this.unit * least,

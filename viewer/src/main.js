@@ -371,7 +371,7 @@ function start() {
       branchNodes: branch => Array.from(app.graph.branches[branch].nodes),
       state: () => ({
         picked: { ...app.picked }, mode: app.mode.id, layers: { ...app.stage.layers }, measuring: app.measuring, measured: app.measured && { length: app.measured.length, straight: app.measured.straight },
-        slice: app.slice ? app.slice.perimeter * app.data.scale : null, theme: app.themeName, frames: app.stage.frames, camera: app.stage.view.camera.position.toArray(),
+        slice: app.slice ? app.slice.perimeter * app.data.scale : null, theme: app.themeName, frames: app.stage.frames, hasty: app.stage.hasty, facesDrawn: app.stage.ghost.front.geometry.index.count / 3, camera: app.stage.view.camera.position.toArray(),
       }),
     };
   } catch (error) {

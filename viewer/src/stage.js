@@ -7,6 +7,8 @@ import { Tubes } from './tubes.js';
 const kOrder = { inside: 0, ball: 3, ghost: 10, slice: 15, over: 20 };
 export const kAccent = [240, 120, 20], kMark = [225, 40, 60];
 const kHover = [255, 255, 255];
+const kSlow = 50, kRest = 150;  // milliseconds a frame; without movement before all is drawn finely again
+const kJoined = 3;  // edges of a branch
 
 // Without a graphics card every sample of a pixel costs processor time, so that smooth edges halve the frame rate.
 function drawsInSoftware() {
@@ -22,12 +24,15 @@ export class Stage {
     Object.assign(this, { canvas, surface, graph, frames: 0, pending: false });
     this.layers = { surface: true, skeleton: true, radius: false, mesh: false, slice: true, marks: true };
     this.software = drawsInSoftware();
+    Object.assign(this, { slow: this.software, pace: 0, time: 0, moves: false, hasty: false, rest: 0 });
     this.renderer = new WebGLRenderer({ canvas, antialias: !this.software, powerPreference: 'high-performance' });
     this.scene = new Scene();
     this.view = new View(canvas, data, () => this.draw());
     this.ghost = new Ghost(surface, kOrder.ghost);
     this.skeletonMesh = data.skeleton_mesh && new SkeletonMesh(data.skeleton_mesh, surface, kOrder.inside);
-    this.tubes = new Tubes({ order: kOrder.inside });
+    this.lines = new Tubes({ line: true, order: kOrder.inside });
+    this.hastyLines = new Tubes({ line: true, order: kOrder.inside });
+    this.knots = new Tubes({ order: kOrder.inside });
     this.balls = new Tubes({ truth: true, opacity: 0.3, order: kOrder.ball });
     this.contour = new Tubes({ overlay: true, flat: true, order: kOrder.slice + 1 });
     this.way = new Tubes({ overlay: true, flat: true, order: kOrder.over });
@@ -35,7 +40,7 @@ export class Stage {
     this.disc = new Mesh(new BufferGeometry(), new MeshBasicMaterial({ color: new Color(0xf07814), opacity: 0.28, transparent: true, side: DoubleSide, depthTest: false, depthWrite: false }));
     this.disc.renderOrder = kOrder.slice;
     this.disc.visible = false;
-    const tubes = [this.tubes, this.balls, this.contour, this.way, this.marks];
+    const tubes = [this.lines, this.hastyLines, this.knots, this.balls, this.contour, this.way, this.marks];
     this.scene.add(...this.ghost.meshes, ...tubes.flatMap(t => t.meshes), this.disc);
     if (this.skeletonMesh) this.scene.add(this.skeletonMesh.mesh);
     this.picked = { branch: -1, hover: -1, node: -1 };
@@ -70,12 +75,29 @@ export class Stage {
   draw() {
     if (this.pending) return;
     this.pending = true;
-    requestAnimationFrame(() => {
+    requestAnimationFrame(time => {
       this.pending = false;
       if (this.view.update()) this.draw();
+      this.hurry(time);
       this.renderer.render(this.scene, this.view.camera);
       ++this.frames;
     });
+  }
+
+  /** While the view moves too slowly, a coarser surface and skeleton are drawn; the fine ones come back when it rests. */
+  hurry(time) {
+    const moves = this.view.moved();
+    if (moves && this.moves) this.pace += 0.3 * (time - this.time - this.pace);
+    if (this.pace > kSlow) this.slow = true;
+    Object.assign(this, { moves, time });
+    if (this.hasty !== (moves && this.slow)) {
+      this.hasty = moves && this.slow;
+      this.ghost.haste(this.hasty);
+      this.showLines();
+    }
+    if (!this.hasty) return;
+    clearTimeout(this.rest);
+    this.rest = setTimeout(() => this.draw(), kRest);
   }
 
   show(layer, on) {
@@ -87,13 +109,19 @@ export class Stage {
     const on = this.layers;
     this.ghost.show(on.surface);
     this.skeletonMesh?.show(on.mesh);
-    this.tubes.show(on.skeleton);
+    this.showLines();
+    this.knots.show(on.skeleton);
     this.balls.show(on.radius);
     this.contour.show(on.slice);
     this.disc.visible = on.slice && !this.contour.empty;
     this.way.show(true);
     this.marks.show(on.marks);
     this.draw();
+  }
+
+  showLines() {
+    this.lines.show(this.layers.skeleton && !this.hasty);
+    this.hastyLines.show(this.layers.skeleton && this.hasty);
   }
 
   paint(painter, mode) {
@@ -115,7 +143,7 @@ export class Stage {
   }
 
   layTubes() {
-    const { graph, picked } = this, pieces = [], balls = [];
+    const { graph, picked } = this, lines = [], knots = [], balls = [];
     const at = v => graph.position.subarray(3 * v, 3 * v + 3), nodeColor = v => this.nodeColors.subarray(3 * v, 3 * v + 3);
     for (let e = 0; e < graph.edgeCount; ++e) {
       const a = graph.edge[2 * e], b = graph.edge[2 * e + 1], branch = graph.branchOfEdge[e];
@@ -123,16 +151,32 @@ export class Stage {
       if (branch === picked.branch) color = [kAccent, kAccent];
       else if (branch === picked.hover) color = [kHover, kHover];
       const width = branch === picked.branch || branch === picked.hover ? 8 : 5;
-      pieces.push({ from: at(a), to: at(b), radius: [graph.radius[a], graph.radius[b]], color, width });
+      lines[e] = { from: at(a), to: at(b), radius: [graph.radius[a], graph.radius[b]], color, width };
       balls.push({ from: at(a), to: at(b), radius: [graph.radius[a], graph.radius[b]], color });
     }
     for (let v = 0; v < graph.nodeCount; ++v) {
       if (graph.degree(v) !== 2 || this.mode.id === 'node' || v === picked.node)
-        pieces.push({ from: at(v), to: at(v), color: v === picked.node ? [kAccent, kAccent] : [nodeColor(v), nodeColor(v)], width: v === picked.node ? 15 : graph.degree(v) === 2 ? 8 : 10 });
+        knots.push({ from: at(v), to: at(v), color: v === picked.node ? [kAccent, kAccent] : [nodeColor(v), nodeColor(v)], width: v === picked.node ? 15 : graph.degree(v) === 2 ? 8 : 10 });
       if (graph.degree(v) === 0) balls.push({ from: at(v), to: at(v), radius: [graph.radius[v], graph.radius[v]], color: [nodeColor(v), nodeColor(v)] });
     }
-    this.tubes.set(pieces);
+    this.lines.set(lines);
+    this.hastyLines.set(this.longer(lines));
+    this.knots.set(knots);
     this.balls.set(balls);
+  }
+
+  /** The lines of the edges, joined along each branch to longer ones. */
+  longer(lines) {
+    const { graph } = this, longer = [];
+    // What a line of the edge has at this node of it.
+    const at = (edge, node) => { const line = lines[edge], k = graph.edge[2 * edge] === node ? 0 : 1; return { place: k === 0 ? line.from : line.to, radius: line.radius[k], color: line.color[k], width: line.width }; };
+    for (const { nodes, edges } of graph.branches) {
+      for (let i = 0; i < edges.length; i += kJoined) {
+        const last = Math.min(i + kJoined, edges.length), a = at(edges[i], nodes[i]), b = at(edges[last - 1], nodes[last]);
+        longer.push({ from: a.place, to: b.place, radius: [a.radius, b.radius], color: [a.color, b.color], width: a.width });
+      }
+    }
+    return longer;
   }
 
   /** A closed contour with its plane's normal and the vertex that it goes through; null: none. */

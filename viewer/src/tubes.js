@@ -3,24 +3,25 @@ import {
   BufferAttribute, GLSL3, InstancedBufferAttribute, InstancedBufferGeometry, Mesh, ShaderMaterial, Vector2,
 } from 'three';
 
-const kSides = 8;
+// Sides, and rings as places along the axis with the end that they belong to. A line of few pixels shows no more of it.
+const kLine = { sides: 5, rings: [[-1, 0], [0, 0], [0, 1], [1, 1]] };
+const kRound = { sides: 8, rings: [[-1, 0], [-0.7, 0], [0, 0], [0, 1], [0.7, 1], [1, 1]] };
 
 // Each vertex is a direction in the tube's frame (across, across, along) and the end that it belongs to.
-function capsule() {
+function capsule({ sides, rings }) {
   const direction = [], end = [], index = [];
-  const rings = [[-1, 0], [-0.7, 0], [0, 0], [0, 1], [0.7, 1], [1, 1]];
   for (const [along, e] of rings) {
     const across = Math.sqrt(1 - along * along);
-    for (let i = 0; i < kSides; ++i) {
-      const angle = 2 * Math.PI * i / kSides;
+    for (let i = 0; i < sides; ++i) {
+      const angle = 2 * Math.PI * i / sides;
       direction.push(across * Math.cos(angle), across * Math.sin(angle), along);
       end.push(e);
     }
   }
   for (let r = 0; r + 1 < rings.length; ++r) {
-    for (let i = 0; i < kSides; ++i) {
-      const a = r * kSides + i, b = r * kSides + (i + 1) % kSides;
-      index.push(a, b, b + kSides, a, b + kSides, a + kSides);
+    for (let i = 0; i < sides; ++i) {
+      const a = r * sides + i, b = r * sides + (i + 1) % sides;
+      index.push(a, b, b + sides, a, b + sides, a + sides);
     }
   }
   return { direction: new Float32Array(direction), end: new Float32Array(end), index };
@@ -63,9 +64,9 @@ void main() {
 }`;
 
 export class Tubes {
-  /** `options`: truth, opacity, overlay (drawn over everything), flat, order. */
-  constructor({ truth = false, opacity = 1, overlay = false, flat = false, order = 0 } = {}) {
-    const { direction, end, index } = capsule();
+  /** `options`: truth, opacity, overlay (drawn over everything), flat, line (but few pixels wide), order. */
+  constructor({ truth = false, opacity = 1, overlay = false, flat = false, line = false, order = 0 } = {}) {
+    const { direction, end, index } = capsule(line ? kLine : kRound);
     this.geometry = new InstancedBufferGeometry();
     this.geometry.setAttribute('direction', new BufferAttribute(direction, 3));
     this.geometry.setAttribute('end', new BufferAttribute(end, 1));

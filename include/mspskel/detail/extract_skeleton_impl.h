@@ -349,10 +349,6 @@ inline ExtractResult extract_component(SurfaceSnapshot surface, const SurfaceSna
   return result;
 }
 
-// Components of so many faces or fewer are shared out among the threads; larger ones share out their own
-// work.
-inline constexpr std::size_t kSmallComponent = 2000;
-
 // Whether the options ask for more of a component than its part of the whole's nodes.
 inline ExtractOptions with_share_of_nodes(const ExtractOptions& options, Index own, Index all) {
   ExtractOptions share = options;

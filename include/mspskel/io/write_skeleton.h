@@ -23,6 +23,8 @@ enum class SkeletonFormat {
 
 // By extension, in any case; "-" is kSkel. Throws UsageError that lists the known extensions.
 SkeletonFormat skeleton_format_of(const std::string& path);
+// Those that it knows, with their dots.
+std::vector<std::string> skeleton_extensions();
 
 // Throws NoSkeletonError that names the node if one of its numbers is not finite.
 void refuse_not_finite(const CurveSkeleton& skeleton);

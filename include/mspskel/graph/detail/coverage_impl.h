@@ -28,7 +28,8 @@ inline BallTree balls_of_nodes(const SurfaceSnapshot& surface, const BoundingVol
 
 MSPSKEL_INLINE std::vector<UncoveredPart> find_uncovered_parts(const SurfaceSnapshot& surface,
                                                                const BoundingVolumeHierarchy& solid,
-                                                               const CurveSkeleton& skeleton, double smallest,
+                                                               const CurveSkeleton& skeleton,
+                                                               const CoverageOptions& options,
                                                                const Execution& execution) {
   const detail::BallTree balls = detail::balls_of_nodes(surface, solid, skeleton, execution);
   std::vector<double> outside(surface.position.size(), 0.0);
@@ -45,7 +46,7 @@ MSPSKEL_INLINE std::vector<UncoveredPart> find_uncovered_parts(const SurfaceSnap
   std::vector<UncoveredPart> found;
   for (const detail::SlenderPart& part :
        detail::slender_parts(surface, outside, std::move(beyond), 2 * kMissedWidths,
-                             [&](Index v) { return smallest * diagonal[surface.component[v]]; }))
+                             [&](Index v) { return options.smallest * diagonal[surface.component[v]]; }))
     found.push_back({part.top, surface.frame.to_model(surface.position[part.top]),
                      surface.frame.scale * part.depth, 0.5 * part.slenderness});
   std::sort(found.begin(), found.end(), [](const UncoveredPart& a, const UncoveredPart& b) {
