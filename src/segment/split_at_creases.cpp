@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <queue>
 #include <tuple>
@@ -11,6 +10,21 @@
 
 namespace mspskel {
 namespace {
+
+// Neighbours of a piece, ascending, and what the border costs. Few, so a sorted list beats a tree.
+using Borders = std::vector<std::pair<Index, double>>;
+
+Borders::iterator place_of(Borders& borders, Index piece) {
+  return std::lower_bound(borders.begin(), borders.end(), piece,
+                          [](const auto& entry, Index p) { return entry.first < p; });
+}
+void erase(Borders& borders, Index piece) { borders.erase(place_of(borders, piece)); }
+// Adds to the border with the piece; returns what it costs then.
+double add(Borders& borders, Index piece, double cost) {
+  const auto at = place_of(borders, piece);
+  if (at == borders.end() || at->first != piece) return borders.insert(at, {piece, cost})->second;
+  return at->second += cost;
+}
 
 // Pieces of parts that become one, pair by pair. A piece's number is that of one of its faces.
 class PieceMerger {
@@ -24,19 +38,20 @@ class PieceMerger {
     total_ = std::accumulate(area_.begin(), area_.end(), 0.0);
     for (Index h = 0; h < surface.halfedge_count(); ++h) {
       const Index f = h / 3, g = surface.twin[h] / 3;
-      if (f != g && part_of_face[f] == part_of_face[g]) border_[f][g] += costs[h];
+      if (f != g && part_of_face[f] == part_of_face[g]) add(border_[f], g, costs[h]);
     }
     for (Index f = 0; f < count_; ++f)
       for (const auto& [g, cost] : border_[f])
-        if (f < g) push(f, g);
+        if (f < g) push(f, g, cost);
   }
 
   void run() {
     while (!queue_.empty() && count_ > options_.least) {
       const Pair pair = queue_.top();
       queue_.pop();
-      const auto found = border_[pair.a].find(pair.b);
-      if (found == border_[pair.a].end() || worth(pair.a, pair.b, found->second) != pair.worth) continue;
+      if (into_[pair.a] != pair.a || into_[pair.b] != pair.b) continue;
+      const auto found = place_of(border_[pair.a], pair.b);
+      if (worth(pair.a, pair.b, found->second) != pair.worth) continue;
       const bool clean = pair.worth.first == 0 && pair.worth.second <= options_.cost;
       if (clean && (options_.most == 0 || count_ <= options_.most)) return;
       merge(pair.a, pair.b);
@@ -68,31 +83,31 @@ class PieceMerger {
     const double smaller = std::min(area_[a], area_[b]);
     return {smaller < options_.smallest * total_ ? 1 : 0, smaller > 0 ? cost / std::sqrt(smaller) : total_};
   }
-  void push(Index a, Index b) {
-    if (b < a) std::swap(a, b);
-    queue_.push({worth(a, b, border_[a].at(b)), a, b});
+  void push(Index a, Index b, double cost) {
+    queue_.push({worth(a, b, cost), std::min(a, b), std::max(a, b)});
   }
   void merge(Index a, Index b) {
     if (border_[a].size() < border_[b].size()) std::swap(a, b);
     const double before = area_[a];
-    border_[a].erase(b);
-    border_[b].erase(a);
+    erase(border_[a], b);
+    erase(border_[b], a);
     into_[b] = a;
     area_[a] += area_[b];
     --count_;
-    for (const auto& [c, cost] : border_[b]) {
-      border_[c].erase(b);
-      border_[c][a] = border_[a][c] += cost;
-    }
-    // The worth of the others is that of the smaller piece, which has grown only if it is this one.
+    // The worth of a border is that of the smaller piece: of those that b did not touch only it can change.
     for (const auto& [c, cost] : border_[a])
-      if (area_[c] > before || border_[b].count(c) > 0) push(a, c);
-    border_[b].clear();
+      if (area_[c] > before) push(a, c, cost);
+    for (const auto& [c, cost] : border_[b]) {
+      erase(border_[c], b);
+      add(border_[c], a, cost);
+      push(a, c, add(border_[a], c, cost));
+    }
+    Borders().swap(border_[b]);
   }
 
   const CreasePartOptions options_;
   std::vector<Index> into_;  // per piece: the one that it became part of; its own number: it stands
-  std::vector<std::map<Index, double>> border_;  // per piece: its neighbours and what the border costs
+  std::vector<Borders> border_;
   std::vector<double> area_;
   std::priority_queue<Pair> queue_;
   Index count_ = 0;
