@@ -60,6 +60,8 @@ export class Ghost {
     this.meshes = [this.depth, this.front];
   }
   paint(bytes) { paint(this.geometry, bytes); }
+  /** After the surface's positions and normals have changed. */
+  moved() { for (const name of ['position', 'normal']) this.geometry.getAttribute(name).needsUpdate = true; }
   opacity(value) { this.front.material.uniforms.opacity.value = value; }
   show(on) { for (const mesh of this.meshes) mesh.visible = on; }
 }
