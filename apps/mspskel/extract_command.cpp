@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
 #include <optional>
 
 #include "cancellation.h"
@@ -133,9 +134,6 @@ void segment(const ExtractSettings& settings, Extraction& extraction) {
   ExtractResult& result = extraction.made.result;
   extraction.segmentation = segment_surface(result.surface, result.skeleton, settings.segmentation);
   result.seconds.emplace_back("parts", segmenting.seconds());
-  if (extraction.made.input.mended)
-    result.warnings.push_back(settings.segments +
-                              ": parts are those of the mended surface's faces; --write-mesh writes it");
 }
 
 void add_rig(const ExtractSettings& settings, Extraction& extraction) {
@@ -160,6 +158,20 @@ void expect(ProgressEstimate& estimate, const MeshInput& input, const ExtractOpt
   estimate.expect_components(faces);
 }
 
+// Files that number vertices or faces number the surface's, which are not the file's where it was mended or
+// its shells were united.
+void add_renumbered(const ExtractSettings& settings, CheckedExtraction& made) {
+  if (!made.input.renumbered()) return;
+  std::vector<std::string> numbering;
+  std::copy_if(settings.outputs.begin(), settings.outputs.end(), std::back_inserter(numbering), is_rig_text);
+  if (!settings.segments.empty()) numbering.push_back(settings.segments);
+  if (!settings.stages.empty()) numbering.push_back(settings.stages);
+  const std::string surface = made.input.united_shells() ? "surface of the united shells" : "mended surface";
+  for (const std::string& path : numbering)
+    made.result.warnings.push_back(path + ": vertices and faces are numbered as on the " + surface +
+                                   "; --write-mesh writes it");
+}
+
 Extraction extract_and_check(const ExtractSettings& settings, const Cancellation& cancellation,
                              ProgramSeconds& seconds, Terminal& terminal) {
   const Stopwatch reading;
@@ -172,6 +184,7 @@ Extraction extract_and_check(const ExtractSettings& settings, const Cancellation
   Extraction extraction;
   extraction.made = extract_from(std::move(input), settings.run.extract);
   add_losses(settings, extraction.made.result);
+  add_renumbered(settings, extraction.made);
   extraction.reported = !settings.report.empty() || settings.verbose || writes_report(settings);
   if (!settings.segments.empty()) segment(settings, extraction);
   if (settings.needs_rig()) add_rig(settings, extraction);
@@ -202,7 +215,9 @@ void write_files(const ExtractSettings& settings, const Extraction& extraction, 
   const CurveSkeleton skeleton = made.input.of_file(made.result.skeleton);
   for (const std::string& output : settings.outputs) {
     if (is_page(output))
-      write_viewer_page(output, make_page_scene(settings.input, made.result, extraction.facts));
+      write_viewer_page(output, make_page_scene(settings.input, made.result, extraction.facts,
+                                                extraction.segmentation ? &*extraction.segmentation : nullptr,
+                                                extraction.rig ? &*extraction.rig : nullptr));
     else if (is_glb(output))
       write_glb(output, settings, extraction);
     else if (is_rig_text(output))

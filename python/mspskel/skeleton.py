@@ -13,11 +13,12 @@ from .measures import Measures
 from .meshparty_names import MeshPartyNames
 from .osteoid_names import OsteoidNames
 from .output import Output
+from .shapes import Shapes
 from .skeletor_names import SkeletorNames
 from .tree import Rows, rows_of_table
 
 
-class Skeleton(SkeletorNames, OsteoidNames, MeshPartyNames, Measures, Output):
+class Skeleton(SkeletorNames, OsteoidNames, MeshPartyNames, Measures, Output, Shapes):
     """Nodes, straight edges, a radius a node, and the map from the mesh's vertices.
 
     vertices   (n, 3) positions in the mesh's coordinates

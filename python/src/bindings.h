@@ -10,6 +10,7 @@ void bind_errors();
 void bind_options(nanobind::module_& module);
 void bind_skeleton_graph(nanobind::module_& module);
 void bind_extraction(nanobind::module_& module);
+void bind_shapes(nanobind::module_& module);
 void bind_stages(nanobind::module_& module);
 
 }  // namespace mspskel::python

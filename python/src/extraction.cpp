@@ -192,9 +192,9 @@ void bind_extraction(nb::module_& module) {
           nb::rv_policy::reference_internal)
       .def_prop_ro("failure", [](Self self) { return self.made.failure; })
       .def_prop_ro("warnings", [](Self self) { return self.made.result.warnings; })
-      .def_prop_ro("mended", [](Self self) { return self.made.input.mended; })
+      .def_prop_ro("renumbered", [](Self self) { return self.made.input.renumbered(); })
       .def_prop_ro("vertex_of_point",
-                   [](Self self) { return view(self.made.input.repair.vertex_of_point, nb::find(self)); })
+                   [](Self self) { return view(self.made.input.vertex_of_point, nb::find(self)); })
       .def("facts", &facts_text)
       .def("report", &report_text)
       .def("certificate", &certificate_of)

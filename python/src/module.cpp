@@ -7,5 +7,6 @@ NB_MODULE(_core, module) {
   bind_options(module);
   bind_skeleton_graph(module);
   bind_extraction(module);
+  bind_shapes(module);
   bind_stages(module);
 }

@@ -99,3 +99,14 @@ def test_measures(ring):
     moved.swc["x"] += 100.0
     assert not moved.check()["contained"]
     assert ring.report["options"]["mode"] == "default" and ring.report["skeleton"]["cycles"] == 1
+
+
+def test_points_keep_their_numbers_where_shells_are_united(quadruped):
+    """Two creatures that cross become one surface, whose vertices stand for the points."""
+    points, faces = quadruped
+    both = np.concatenate([points, points + [0.1, 0.05, 0.02]])
+    run = mspskel.skeletonize((both, np.concatenate([faces, faces + len(points)]))).stages
+    kept = run.vertex_of_point >= 0
+    assert len(kept) == len(both) and len(run.vertices) != len(both)
+    away = np.linalg.norm(run.vertices[run.vertex_of_point[kept]] - both[kept], axis=1)
+    assert kept.any() and away.max() < 0.1 * np.ptp(both, axis=0).max()

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "close_seams.h"
 #include "mspskel/base/error.h"
 #include "mspskel/graph/check_surface_map.h"
 #include "name_joints.h"
@@ -13,9 +14,7 @@ namespace mspskel {
 namespace {
 
 using detail::SkeletonTree;
-
-// Joints and weights of one node or vertex, ascending by joint.
-using Weights = std::vector<std::pair<Index, double>>;
+using detail::Weights;
 
 void add(Weights& weights, Index joint, double weight) {
   const auto at = std::lower_bound(weights.begin(), weights.end(), joint,
@@ -210,6 +209,7 @@ Rig make_rig(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton, cons
   std::vector<Weights> weights(surface.vertex_count());
   for (Index v = 0; v < surface.vertex_count(); ++v)
     if (surface.vertex_halfedge[v] != kNone) weights[v] = of_node[skeleton.node_of_vertex[v]];
+  detail::close_seams(surface, skeleton, tree, weights);
   smooth(surface, options.smoothing, weights);
   for (Weights& w : weights) rig.influences.push_back(strongest(on_one_path(rig, std::move(w))));
   return rig;

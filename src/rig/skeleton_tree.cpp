@@ -110,6 +110,8 @@ class JointChoice {
     marked_[n] = 0;
   }
   const SkeletonNode& node(Index n) const { return skeleton_.nodes[n]; }
+  // A palm is wider than its inscribed ball.
+  double half_width(Index n) const { return std::max(node(n).radius, node(n).perimeter / (2 * kPi)); }
   // Nodes from the joint above `joint` down to it.
   std::vector<Index> bone(Index joint) const {
     std::vector<Index> nodes{joint};
@@ -144,7 +146,7 @@ class JointChoice {
     for (const Index n : joints()) {
       const std::vector<Index> nodes = bone(n);
       if (tree_.child_count[nodes[0]] < 2) continue;
-      const double whole = bone_length(n), radius = node(nodes[0]).radius;
+      const double whole = bone_length(n), radius = half_width(nodes[0]);
       double walked = 0;
       for (std::size_t i = 1; i + 1 < nodes.size() && walked < radius; ++i) {
         walked += tree_.above[nodes[i]];

@@ -35,6 +35,11 @@ struct MeshInput {
   // The mesh's vertex that stands for each point of the file; empty: its own.
   std::vector<Index> vertex_of_point;
 
+  // Whether shells were united; whether vertices and faces have other numbers than in the file for that or
+  // for mending.
+  bool united_shells() const { return united && united->shells > 0; }
+  bool renumbered() const { return mended || !vertex_of_point.empty(); }
+
   // The skeleton with the map of the vertices that the file has.
   CurveSkeleton of_file(const CurveSkeleton& skeleton) const;
   // The other way round; vertices that mending added have no node.

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "mspskel/render/render.h"
+#include "mspskel/rig/make_rig.h"
 
 namespace mspskel::cli {
 namespace {
@@ -41,6 +42,29 @@ ViewerPlaces faces_without_area(const SurfaceSnapshot& surface) {
   return places;
 }
 
+// The part of a vertex is that of one of its faces.
+void add_parts(const SurfaceSnapshot& surface, const Segmentation& parts, ViewerScene& scene) {
+  for (Index v = 0; v < surface.vertex_count(); ++v) {
+    const Index h = surface.vertex_halfedge[v];
+    scene.part_of_vertex.push_back(h == kNone ? kNone : parts.part_of_face[h / 3]);
+  }
+  scene.part_of_node = parts.part_of_node;
+}
+
+void add_rig(const Rig& rig, ViewerScene& scene) {
+  for (const RigJoint& joint : rig.joints) {
+    scene.rig.names.push_back(joint.name);
+    scene.rig.parents.push_back(joint.parent);
+    scene.rig.nodes.push_back(joint.node);
+    scene.rig.positions.push_back(joint.position);
+  }
+  for (const auto& influences : rig.influences)
+    for (const Influence& influence : influences) {
+      scene.rig.joints.push_back(influence.joint);
+      scene.rig.weights.push_back(influence.weight);
+    }
+}
+
 }  // namespace
 
 bool is_page(const std::string& path) {
@@ -50,7 +74,8 @@ bool is_page(const std::string& path) {
   return extension == ".html" || extension == ".htm";
 }
 
-ViewerScene make_page_scene(const std::string& input, const ExtractResult& result, const Json& report) {
+ViewerScene make_page_scene(const std::string& input, const ExtractResult& result, const Json& report,
+                            const Segmentation* parts, const Rig* rig) {
   const NormalisedFrame& frame = result.surface.frame;
   ViewerScene scene;
   scene.title = input == "-" ? "standard input" : std::filesystem::path(input).filename().string();
@@ -64,6 +89,10 @@ ViewerScene make_page_scene(const std::string& input, const ExtractResult& resul
     scene.initial_slice_error = errors(result.initial_slices);
   }
   scene.slice_normal = result.slices.normal;
+  if (!result.skeleton.nodes.empty()) {
+    add_parts(result.surface, parts ? *parts : segment_surface(result.surface, result.skeleton), scene);
+    add_rig(rig ? *rig : make_rig(result.surface, result.skeleton), scene);
+  }
   scene.places = {vertices_without_slice(result), faces_without_area(result.surface)};
   scene.report = report_text(report);
   return scene;

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "mspskel/extract_skeleton.h"
+#include "mspskel/rig/rig.h"
+#include "mspskel/segment/segment_surface.h"
 #include "mspskel/view/viewer_page.h"
 #include "report.h"
 
@@ -11,6 +13,9 @@ namespace mspskel::cli {
 bool is_page(const std::string& path);
 
 // `input` is the mesh's file, or - for standard input; `report` is that of make_report or with_costs.
-ViewerScene make_page_scene(const std::string& input, const ExtractResult& result, const Json& report);
+// Parts and rig are those given, or else made as the options' defaults have them; without a skeleton there
+// are none.
+ViewerScene make_page_scene(const std::string& input, const ExtractResult& result, const Json& report,
+                            const Segmentation* parts = nullptr, const Rig* rig = nullptr);
 
 }  // namespace mspskel::cli

@@ -6,6 +6,7 @@
 
 #include "mspskel/base/error.h"
 #include "mspskel/graph/check_surface_map.h"
+#include "mspskel/segment/smooth_borders.h"
 
 namespace mspskel {
 namespace {
@@ -23,22 +24,95 @@ std::vector<Index> carry_to_faces(const SurfaceSnapshot& surface, const CurveSke
   return part;
 }
 
-// Numbers the parts that have faces anew, from the largest area to the smallest.
-void number_by_area(const SurfaceSnapshot& surface, Index count, Segmentation& segmentation) {
-  std::vector<double> area(count, 0.0);
-  std::vector<char> used(count, 0);
-  for (Index f = 0; f < surface.face_count(); ++f) {
-    area[segmentation.part_of_face[f]] += surface.face_normal_times_twice_area(f).norm();
-    used[segmentation.part_of_face[f]] = 1;
-  }
-  std::vector<Index> order(count), number(count, kNone);
+std::vector<double> face_areas(const SurfaceSnapshot& surface) {
+  std::vector<double> area;
+  for (Index f = 0; f < surface.face_count(); ++f)
+    area.push_back(0.5 * surface.face_normal_times_twice_area(f).norm());
+  return area;
+}
+
+// Numbers the parts anew, from the largest area to the smallest.
+void number_by_area(const std::vector<double>& area_of_face, Segmentation& segmentation) {
+  std::vector<double> area(segmentation.count, 0.0);
+  for (std::size_t f = 0; f < area_of_face.size(); ++f) area[segmentation.part_of_face[f]] += area_of_face[f];
+  std::vector<Index> order(segmentation.count), number(segmentation.count);
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return area[a] > area[b]; });
-  for (const Index p : order)
-    if (used[p]) number[p] = segmentation.count++;
+  for (Index i = 0; i < segmentation.count; ++i) number[order[i]] = i;
   for (Index& p : segmentation.part_of_face) p = number[p];
-  for (Index& p : segmentation.part_of_node) p = number[p];
 }
+
+// Of each node the part with the most area of the faces whose corners map to it.
+std::vector<Index> parts_of_nodes(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton,
+                                  const std::vector<double>& area_of_face,
+                                  const std::vector<Index>& part_of_face) {
+  std::vector<std::map<Index, double>> share(skeleton.nodes.size());
+  for (Index h = 0; h < surface.halfedge_count(); ++h)
+    share[skeleton.node_of_vertex[surface.origin[h]]][part_of_face[h / 3]] += area_of_face[h / 3];
+  std::vector<Index> part(skeleton.nodes.size(), kNone);
+  for (std::size_t n = 0; n < share.size(); ++n) {
+    double most = -1;
+    for (const auto& [p, area] : share[n])
+      if (area > most) {
+        most = area;
+        part[n] = p;
+      }
+  }
+  return part;
+}
+
+class Segmenter {
+ public:
+  Segmenter(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton, const SegmentOptions& options)
+      : surface_(surface),
+        skeleton_(skeleton),
+        options_(options),
+        contacts_(node_contacts(surface, skeleton)),
+        costs_(border_costs(surface, options.creases)) {}
+
+  // The parts of creases come after those of the skeleton's clear cuts, and before the others.
+  std::vector<Index> run() {
+    const Index wanted = options_.parts.count;
+    const SkeletonParts clear = cut_skeleton(0);
+    if (wanted > 0 && clear.count >= wanted) return carried(cut_skeleton(wanted));
+    std::vector<Index> part = carried(clear);
+    split(part, 0);
+    if (wanted == 0) return part;
+    const Index found = 1 + *std::max_element(part.begin(), part.end());
+    if (found < wanted) {
+      part = carried(cut_skeleton(clear.count + wanted - found));
+      split(part, wanted);
+    }
+    return part;
+  }
+
+ private:
+  SkeletonParts cut_skeleton(Index count) const {
+    PartOptions options = options_.parts;
+    options.count = count;
+    return find_parts(skeleton_, contacts_, options);
+  }
+  // With smooth borders, and connected.
+  std::vector<Index> carried(const SkeletonParts& parts) const {
+    std::vector<Index> part = carry_to_faces(surface_, skeleton_, parts.part_of_node);
+    connect_parts(surface_, part);
+    smooth_borders(surface_, costs_, part, options_.border_width);
+    connect_parts(surface_, part);
+    return part;
+  }
+  void split(std::vector<Index>& part, Index least) const {
+    CreasePartOptions options = options_.crease_parts;
+    options.most = options_.parts.count;
+    options.least = least;
+    split_at_creases(surface_, costs_, part, options);
+  }
+
+  const SurfaceSnapshot& surface_;
+  const CurveSkeleton& skeleton_;
+  const SegmentOptions& options_;
+  const std::vector<NodeContact> contacts_;
+  const std::vector<double> costs_;
+};
 
 }  // namespace
 
@@ -71,15 +145,15 @@ std::vector<NodeContact> node_contacts(const SurfaceSnapshot& surface, const Cur
 
 Segmentation segment_surface(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton,
                              const SegmentOptions& options) {
-  validate(options.borders);
-  SkeletonParts parts = find_parts(skeleton, node_contacts(surface, skeleton), options.parts);
+  validate(options.parts);
+  validate(options.crease_parts);
   Segmentation segmentation;
-  segmentation.part_of_face = carry_to_faces(surface, skeleton, parts.part_of_node);
-  segmentation.part_of_node = std::move(parts.part_of_node);
-  connect_parts(surface, segmentation.part_of_face);
-  smooth_borders(surface, segmentation.part_of_face, options.borders);
-  connect_parts(surface, segmentation.part_of_face);
-  number_by_area(surface, parts.count, segmentation);
+  segmentation.part_of_face = Segmenter(surface, skeleton, options).run();
+  segmentation.count =
+      1 + *std::max_element(segmentation.part_of_face.begin(), segmentation.part_of_face.end());
+  const std::vector<double> area = face_areas(surface);
+  number_by_area(area, segmentation);
+  segmentation.part_of_node = parts_of_nodes(surface, skeleton, area, segmentation.part_of_face);
   return segmentation;
 }
 

@@ -20,9 +20,13 @@ double edge_length(const SurfaceSnapshot& s, Index h) {
 
 class BorderSmoother {
  public:
-  BorderSmoother(const SurfaceSnapshot& surface, std::vector<Index>& part_of_face,
-                 const BorderOptions& options)
-      : surface_(surface), part_(part_of_face), options_(options), place_(part_of_face.size(), kNone) {
+  BorderSmoother(const SurfaceSnapshot& surface, const std::vector<double>& costs,
+                 std::vector<Index>& part_of_face, double width)
+      : surface_(surface),
+        costs_(costs),
+        part_(part_of_face),
+        width_(width),
+        place_(part_of_face.size(), kNone) {
     for (Index f = 0; f < surface.face_count(); ++f) {
       const Index h = 3 * f;
       middle_.push_back((surface.position[surface.origin[h]] + surface.position[surface.origin[h + 1]] +
@@ -44,15 +48,6 @@ class BorderSmoother {
   bool is_border(Index h, Index a, Index b) const {
     return part_[h / 3] == a && part_[surface_.twin[h] / 3] == b;
   }
-  double cost(Index h) const {
-    const Vector3 n = surface_.face_normal_times_twice_area(h / 3);
-    const Vector3 m = surface_.face_normal_times_twice_area(surface_.twin[h] / 3);
-    const Vector3& across = surface_.position[surface_.apex(surface_.twin[h])];
-    const bool concave = n.dot(across - surface_.position[surface_.origin[h]]) > 0;
-    const double angle = concave ? std::atan2(n.cross(m).norm(), n.dot(m)) : 0.0;
-    return edge_length(surface_, h) / (1 + options_.crease * angle);
-  }
-
   // Faces of both parts within `width` of their border, along the surface.
   std::vector<Index> band(Index a, Index b, const std::vector<Index>& border, double width) {
     using Item = std::pair<double, Index>;
@@ -85,7 +80,7 @@ class BorderSmoother {
         border.push_back(h);
         length += edge_length(surface_, h);
       }
-    const std::vector<Index> faces = band(a, b, border, options_.width * length / (2 * kPi));
+    const std::vector<Index> faces = band(a, b, border, width_ * length / (2 * kPi));
     const Index source = static_cast<Index>(faces.size()), sink = source + 1;
     detail::MaxFlow flow(sink + 1);
     bool from_a = false, from_b = false;
@@ -93,12 +88,12 @@ class BorderSmoother {
       for (Index h = 3 * f; h < 3 * f + 3; ++h) {
         const Index g = surface_.twin[h] / 3;
         if (place_[g] != kNone) {
-          if (f < g) flow.add_edge(place_[f], place_[g], cost(h));
+          if (f < g) flow.add_edge(place_[f], place_[g], costs_[h]);
         } else if (part_[g] == a) {
-          flow.add_edge(source, place_[f], cost(h));
+          flow.add_edge(source, place_[f], costs_[h]);
           from_a = true;
         } else if (part_[g] == b) {
-          flow.add_edge(place_[f], sink, cost(h));
+          flow.add_edge(place_[f], sink, costs_[h]);
           from_b = true;
         }
       }
@@ -110,8 +105,9 @@ class BorderSmoother {
   }
 
   const SurfaceSnapshot& surface_;
+  const std::vector<double>& costs_;  // per half-edge
   std::vector<Index>& part_;
-  const BorderOptions& options_;
+  const double width_;
   std::vector<Index> place_;  // per face: in the present band
   std::vector<Vector3> middle_;
 };
@@ -163,16 +159,10 @@ std::vector<char> largest_pieces(const Pieces& pieces) {
 
 }  // namespace
 
-void validate(const BorderOptions& options) {
-  if (!(options.width >= 0 && options.width <= 10)) throw UsageError("borders: width must be from 0 to 10");
-  if (!(options.crease >= 0 && options.crease <= 100))
-    throw UsageError("borders: crease must be from 0 to 100");
-}
-
-void smooth_borders(const SurfaceSnapshot& surface, std::vector<Index>& part_of_face,
-                    const BorderOptions& options) {
-  validate(options);
-  if (options.width > 0) BorderSmoother(surface, part_of_face, options).run();
+void smooth_borders(const SurfaceSnapshot& surface, const std::vector<double>& costs,
+                    std::vector<Index>& part_of_face, double width) {
+  if (!(width >= 0 && width <= 10)) throw UsageError("borders: width must be from 0 to 10");
+  if (width > 0) BorderSmoother(surface, costs, part_of_face, width).run();
 }
 
 void connect_parts(const SurfaceSnapshot& surface, std::vector<Index>& part_of_face) {

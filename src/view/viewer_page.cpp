@@ -42,6 +42,23 @@ void check_positions(const char* name, const std::vector<Vector3>& positions) {
                       " are not finite");
 }
 
+void validate_rig(const ViewerScene& scene) {
+  const ViewerRig& rig = scene.rig;
+  const std::size_t count = rig.names.size();
+  if (count == 0) return;
+  if (rig.parents.size() != count || rig.nodes.size() != count || rig.positions.size() != count)
+    throw UsageError("the page's rig has " + std::to_string(count) +
+                     " names and another number of parents, nodes or positions");
+  const std::size_t influences = 4 * scene.surface.points.size();
+  if (rig.joints.size() != influences || rig.weights.size() != influences)
+    throw UsageError("the page's rig needs four joints and weights a vertex");
+  check_indices("rig.joints", rig.joints, 0, count);
+  check_indices("rig.nodes", rig.nodes, 0, scene.skeleton.nodes.size());
+  check_positions("joint", rig.positions);
+  for (std::size_t j = 0; j < count; ++j)
+    check_indices("rig.parents", {rig.parents[j]}, j == 0 ? kNone : 0, j);
+}
+
 void validate(const ViewerScene& scene) {
   const std::size_t vertices = scene.surface.points.size();
   if (vertices == 0) throw UsageError("a page needs a surface: this one has no points");
@@ -58,6 +75,11 @@ void validate(const ViewerScene& scene) {
   check_length("slice_normal", scene.slice_normal.size(), vertices);
   check_length("node_of_vertex", scene.skeleton.node_of_vertex.size(), vertices);
   check_indices("node_of_vertex", scene.skeleton.node_of_vertex, kNone, scene.skeleton.nodes.size());
+  check_length("part_of_vertex", scene.part_of_vertex.size(), vertices);
+  if (!scene.part_of_node.empty() && scene.part_of_node.size() != scene.skeleton.nodes.size())
+    throw UsageError("the page's list part_of_node has " + std::to_string(scene.part_of_node.size()) +
+                     " entries for " + std::to_string(scene.skeleton.nodes.size()) + " nodes");
+  validate_rig(scene);
   for (const auto& edge : scene.skeleton.edges)
     check_indices("edges", {edge[0], edge[1]}, 0, scene.skeleton.nodes.size());
 }
@@ -96,6 +118,12 @@ void add_surface(PageData& data, const ViewerScene& scene, const NormalisedFrame
   if (!scene.initial_msp.empty()) data.add("initial_msp", floats(scene.initial_msp, frame.scale));
   if (!scene.initial_slice_error.empty()) data.add("initial_slice_error", floats(scene.initial_slice_error));
   if (!scene.slice_normal.empty()) data.add("slice_normal", floats(scene.slice_normal, NormalisedFrame{}));
+  if (!scene.part_of_vertex.empty()) data.add("part_of_vertex", scene.part_of_vertex);
+  if (!scene.part_of_node.empty()) data.add("part_of_node", scene.part_of_node);
+  if (!scene.rig.names.empty()) {
+    data.add("rig_joint", scene.rig.joints);
+    data.add("rig_weight", floats(scene.rig.weights));
+  }
   if (!scene.skeleton.node_of_vertex.empty()) data.add("node_of_vertex", scene.skeleton.node_of_vertex);
 }
 
@@ -155,6 +183,13 @@ Json places_json(const ViewerScene& scene, const NormalisedFrame& frame) {
   return list;
 }
 
+Json rig_json(const ViewerRig& rig, const NormalisedFrame& frame) {
+  if (rig.names.empty()) return nullptr;
+  Json at = Json::array();
+  for (const Vector3& x : rig.positions) at.push_back(json_of(frame.to_normalised(x)));
+  return {{"names", rig.names}, {"parents", rig.parents}, {"nodes", rig.nodes}, {"at", std::move(at)}};
+}
+
 // JSON that may stand in an HTML script element: nothing in it closes the element.
 std::string text_for_html(const Json& json) {
   std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace), out;
@@ -194,6 +229,7 @@ std::string description(const ViewerScene& scene, const NormalisedFrame& frame, 
                         {"right", json_of(view.right)},
                         {"up", json_of(view.up)},
                         {"arrays", arrays},
+                        {"rig", rig_json(scene.rig, frame)},
                         {"places", places_json(scene, frame)},
                         {"report", report}});
 }

@@ -72,11 +72,14 @@ class Repair(ProgramTest):
         self.fail_with(MESH, "open.off", "b.skel", "--repair", "off")
         self.assertIn("--components", self.fail_with(USAGE, "open.off", "b.skel", "--components", "some"))
 
-    def test_shells_that_cross_are_one_solid_unless_each_is_wanted(self):
+    def two_crossing_capsules(self):
         points, faces = read_off(self.folder / self.sample("capsule", 400))
         size = max(abs(c) for p in points for c in p)
         turned = [(p[1], p[2], p[0] + size / 4) for p in points]
         write_off(self.folder / "two.off", points + turned, faces + [tuple(v + len(points) for v in f) for f in faces])
+
+    def test_shells_that_cross_are_one_solid_unless_each_is_wanted(self):
+        self.two_crossing_capsules()
         message = self.run_program("two.off", "a.skel", "--report", "a.json").stderr.decode()
         self.assertIn("2 shells that cross each other are united to 1 solid", message)
         report = json.loads((self.folder / "a.json").read_text())
@@ -84,6 +87,21 @@ class Repair(ProgramTest):
         self.assertEqual(self.run_program("check", "two.off", "a.skel", "-q").returncode, DONE)
         self.run_program("two.off", "a.skel", "--report", "a.json", "--shells", "each")
         self.assertEqual(json.loads((self.folder / "a.json").read_text())["skeleton"]["components"], 2)
+
+    def test_numbers_of_another_surface_are_told(self):
+        """Files that number faces or vertices say so where those are not the mesh's."""
+        self.two_crossing_capsules()
+        self.open_tube()
+        for mesh, surface in (("two.off", "united shells"), ("open.off", "mended surface")):
+            message = self.run_program(mesh, "a.skel", "a.rig.txt", "--segments", "a.seg", "--stages", "stages",
+                                       "--write-mesh", "surface.off").stderr.decode()
+            for file in ("a.rig.txt", "a.seg", "stages"):
+                self.assertEqual(message.count(f"{file}: vertices and faces are numbered as on the"), 1, message)
+            self.assertIn(surface, message)
+            self.assertEqual(len((self.folder / "a.seg").read_text().split()), len(read_off(self.folder / "surface.off")[1]))
+        self.run_program("two.off", "a.skel", "--segments", "a.seg", "--shells", "each")
+        self.assertEqual(len((self.folder / "a.seg").read_text().split()), len(read_off(self.folder / "two.off")[1]))
+        self.assertNotIn("numbered", self.run_program(self.sample("capsule"), "--segments", "a.seg").stderr.decode())
 
     def test_flat_sheet_is_refused_with_a_remedy(self):
         self.write("sheet.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n")

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <set>
 
+#include "../topology/voxel_solids.h"
 #include "mspskel/base/error.h"
 #include "mspskel/extract_skeleton.h"
 #include "mspskel/io/write_glb.h"
@@ -21,10 +22,34 @@ struct Shape {
   PolygonSoup soup;
 };
 
-Shape sample(const std::string& name) {
-  ExtractResult result = extract_skeleton(test::to_mesh(make_sample(name)));
+Shape shape_of(const DefaultMesh& mesh) {
+  ExtractResult result = extract_skeleton(mesh);
   PolygonSoup soup = to_polygon_soup(result.surface);
   return {std::move(result.surface), std::move(result.skeleton), std::move(soup)};
+}
+
+Shape sample(const std::string& name) { return shape_of(test::to_mesh(make_sample(name))); }
+
+// A thick plate on which two limbs lie side by side and have grown together, each with an arc of its own.
+Shape webbed_limbs() {
+  test::VoxelSolid solid;
+  solid.box({0, 0, 0}, {20, 20, 6});
+  const DefaultMesh mesh = test::to_mesh(test::boundary(solid));
+  Shape shape{make_snapshot(mesh), {}, {}};
+  shape.soup = to_polygon_soup(shape.surface);
+  CurveSkeleton& skeleton = shape.skeleton;
+  for (const double x : {5.0, 15.0})
+    for (int y = 2; y <= 18; ++y) skeleton.nodes.push_back({Vector3(x, y, 3), 3, 60, 32, 0});
+  for (Index n = 0; n + 1 < 34; ++n)
+    if (n != 16) skeleton.edges.push_back({n, n + 1});
+  skeleton.nodes.push_back({Vector3(10, 1, 3), 1, 60, 10, 0});
+  skeleton.edges.push_back({0, 34});
+  skeleton.edges.push_back({17, 34});
+  for (const Vector3& p : shape.soup.points) {
+    const Index y = std::clamp(static_cast<Index>(std::lround(p.y())), 2, 18) - 2;
+    skeleton.node_of_vertex.push_back(p.x() < 9.5 ? y : p.x() > 10.5 || y > 0 ? 17 + y : 34);
+  }
+  return shape;
 }
 
 const Shape& beast() {
@@ -122,6 +147,20 @@ TEST_CASE("a bent limb moves its tip and no other limb") {
     CHECK(elsewhere < 0.01 * beast().surface.frame.scale);
   }
   CHECK(bent_limbs >= 5);
+}
+
+TEST_CASE("weights spread where the surface map jumps from limb to limb") {
+  const Shape shape = webbed_limbs();
+  const Rig rig = make_rig(shape.surface, shape.skeleton);
+  double steepest = 0;
+  for (Index h = 0; h < shape.surface.halfedge_count(); ++h) {
+    const auto &a = rig.influences[shape.surface.origin[h]], &b = rig.influences[shape.surface.target(h)];
+    std::vector<double> change(rig.joints.size(), 0.0);
+    for (const Influence& i : a) change[i.joint] += i.weight;
+    for (const Influence& i : b) change[i.joint] -= i.weight;
+    for (const double c : change) steepest = std::max(steepest, std::abs(c));
+  }
+  CHECK(steepest < 0.3);
 }
 
 TEST_CASE("a wanted number of joints is met") {

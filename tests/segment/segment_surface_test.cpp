@@ -3,11 +3,16 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <set>
 
+#include "../../apps/bench/subdivide.h"
+#include "../topology/voxel_solids.h"
 #include "mspskel/base/error.h"
 #include "mspskel/extract_skeleton.h"
+#include "mspskel/segment/border_costs.h"
 #include "mspskel/segment/smooth_borders.h"
+#include "mspskel/segment/split_at_creases.h"
 #include "support/meshes.h"
 
 using namespace mspskel;
@@ -96,6 +101,79 @@ TEST_CASE("parts turn along with the shape") {
                      segment_surface(b.surface, b.skeleton).part_of_face) < 0.05);
 }
 
+TEST_CASE("four times the faces give the same parts") {
+  const PolygonSoup soup = make_sample("octoped");
+  const Shape a = shape_of(soup), b = shape_of(bench::subdivided(soup));
+  std::vector<Index> parts;
+  for (const Index part : segment_surface(a.surface, a.skeleton).part_of_face)
+    parts.insert(parts.end(), 4, part);
+  CHECK(disagreement(parts, segment_surface(b.surface, b.skeleton).part_of_face) < 0.05);
+}
+
+namespace {
+
+// A box of 4 on one of 8.
+SurfaceSnapshot box_on_box(int fine) {
+  test::VoxelSolid solid;
+  solid.box({0, 0, 0}, {8, 8, 8});
+  solid.box({2, 2, 8}, {6, 6, 12});
+  return make_snapshot(test::to_mesh(test::boundary(solid, fine)));
+}
+double height(const SurfaceSnapshot& surface, Index v) {
+  return surface.frame.to_model(surface.position[v]).z();
+}
+// Of the edges in the ring where the boxes meet, as a share of their length.
+double ring_cost(const SurfaceSnapshot& surface) {
+  const std::vector<double> costs = border_costs(surface);
+  double cost = 0, length = 0;
+  for (Index h = 0; h < surface.halfedge_count(); ++h) {
+    const Index a = surface.origin[h], b = surface.target(h);
+    const double side =
+        std::max(height(surface, surface.apex(h)), height(surface, surface.apex(surface.twin[h])));
+    if (std::abs(height(surface, a) - 8) > 1e-9 || std::abs(height(surface, b) - 8) > 1e-9 || side < 8 + 1e-9)
+      continue;
+    cost += costs[h];
+    length += (surface.position[a] - surface.position[b]).norm();
+  }
+  return cost / length;
+}
+
+}  // namespace
+
+TEST_CASE("a box on a box is a part, whose border is the crease") {
+  const SurfaceSnapshot surface = box_on_box(2);
+  std::vector<Index> part(surface.face_count(), 0);
+  split_at_creases(surface, border_costs(surface), part);
+  CHECK(std::set<Index>(part.begin(), part.end()).size() == 2);
+  const auto top = [&](Index f) {
+    double sum = 0;
+    for (Index h = 3 * f; h < 3 * f + 3; ++h) sum += height(surface, surface.origin[h]);
+    return sum / 3 > 8 + 1e-9;
+  };
+  Index wrong = 0;
+  for (Index f = 0; f < surface.face_count(); ++f)
+    for (const Index g : {surface.twin[3 * f] / 3, surface.twin[3 * f + 1] / 3, surface.twin[3 * f + 2] / 3})
+      wrong += (part[f] == part[g]) != (top(f) == top(g)) ? 1 : 0;
+  CHECK(wrong == 0);
+}
+
+TEST_CASE("what a crease costs is a matter of its angle, not of the faces' size") {
+  const double coarse = ring_cost(box_on_box(1)), fine = ring_cost(box_on_box(4));
+  CHECK(coarse < 0.1);
+  CHECK(fine == Approx(coarse).epsilon(0.25));
+  for (const double cost : border_costs(make_snapshot(test::to_mesh(make_sample("sphere"))))) CHECK(cost > 0);
+}
+
+TEST_CASE("parts within a part are as few or as many as wanted") {
+  const SurfaceSnapshot surface = box_on_box(1);
+  for (const Index count : {1, 2, 5}) {
+    std::vector<Index> part(surface.face_count(), 0);
+    split_at_creases(surface, border_costs(surface), part, {0.5, 0.005, count, count});
+    CHECK(static_cast<Index>(std::set<Index>(part.begin(), part.end()).size()) == count);
+    CHECK(pieces_of(surface, part) == count);
+  }
+}
+
 TEST_CASE("stray pieces of a part join what surrounds them") {
   const SurfaceSnapshot surface = make_snapshot(test::to_mesh(make_sample("capsule")));
   std::vector<Index> part(surface.face_count());
@@ -132,7 +210,7 @@ TEST_CASE("a ragged border becomes the shorter one") {
     part[f] = p[axis] > 0.5 * (low[axis] + high[axis]) + 0.4 * p[side] ? 1 : 0;
   }
   const double before = length();
-  smooth_borders(surface, part, {2.0, 0.0});
+  smooth_borders(surface, border_costs(surface, {0.0, 0.0}), part, 2.0);
   CHECK(length() < before);
   CHECK(pieces_of(surface, part) == 2);
 }
@@ -143,7 +221,13 @@ TEST_CASE("options out of range and maps that do not fit are refused") {
   options.parts.contrast = 0;
   CHECK_THROWS_AS(segment_surface(shape.surface, shape.skeleton, options), UsageError);
   options = {};
-  options.borders.width = -1;
+  options.border_width = -1;
+  CHECK_THROWS_AS(segment_surface(shape.surface, shape.skeleton, options), UsageError);
+  options = {};
+  options.creases.width = 2;
+  CHECK_THROWS_AS(segment_surface(shape.surface, shape.skeleton, options), UsageError);
+  options = {};
+  options.crease_parts.smallest = -1;
   CHECK_THROWS_AS(segment_surface(shape.surface, shape.skeleton, options), UsageError);
   CurveSkeleton bare = shape.skeleton;
   bare.node_of_vertex.clear();

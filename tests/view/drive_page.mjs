@@ -62,6 +62,7 @@ try {
   await page.mouse.click(hit.x, hit.y);
   const picked = await state(page);
   assert.ok(picked.picked.vertex >= 0 && picked.slice > 0, 'a click on the surface picks a vertex with its slice');
+  assert.match(await page.textContent('#card'), /Part.*Follows/s, 'and tells its part and joint');
   await page.keyboard.press('2');
   for (const layer of ['surface', 'radius', 'mesh']) {
     const before = (await state(page)).layers[layer];
@@ -70,11 +71,43 @@ try {
     await page.click(`label:has([data-layer="${layer}"])`);
   }
 
-  for (const mode of ['error', 'radius', 'branch', 'node', 'plain', 'msp']) {
+  for (const mode of ['error', 'radius', 'branch', 'node', 'part', 'plain', 'msp']) {
     await page.click(`[data-mode="${mode}"]`);
     assert.equal((await state(page)).mode, mode);
     assert.equal(await page.isVisible('#legend'), mode !== 'plain');
   }
+
+  // Each limb's first joint that has another below it moves the limb's tip, and no other limb.
+  const limbs = await page.evaluate(() => {
+    const m = window.mspskel, limb = name => name.startsWith('limb') ? name.split('_')[0] + (/_[LR]$/.exec(name) ?? '') : '';
+    const rest = Array.from({ length: m.vertexCount }, (_, v) => m.position(v));
+    const own = Array.from({ length: m.vertexCount }, (_, v) => limb(m.jointNames[m.joint(v)]));
+    return m.jointNames.flatMap((name, j) => {
+      if (!limb(name) || limb(m.jointNames[m.jointParents[j]]) || !m.jointParents.includes(j)) return [];
+      m.bend(j, 'x', 45);
+      let tip = 0, others = 0;
+      rest.forEach((p, v) => {
+        const moved = Math.hypot(...m.position(v).map((x, k) => x - p[k])) / 2;  // diagonals
+        if (own[v] === limb(name)) tip = Math.max(tip, moved);
+        else if (own[v]) others = Math.max(others, moved);
+      });
+      m.bend(j, 'x', 0);
+      return [{ name, tip, others }];
+    });
+  });
+  assert.ok(limbs.length >= 4, 'limbs to bend');
+  for (const { name, tip, others } of limbs) {
+    assert.ok(tip > 0.02, `${name} moves its tip by ${tip}`);
+    assert.ok(others < 0.01, `${name} moves other limbs by ${others}`);
+  }
+  const start = await page.evaluate(() => window.mspskel.position(0));
+  await page.selectOption('#joint', '0');
+  await page.selectOption('#axis', 'z');
+  await page.fill('#angle', '30');
+  assert.notDeepEqual(await page.evaluate(() => window.mspskel.position(0)), start, 'the slider bends');
+  await page.click('#straight');
+  (await page.evaluate(() => window.mspskel.position(0))).forEach((x, k) => assert.ok(Math.abs(x - start[k]) < 1e-5, 'straight again'));
+  await page.keyboard.press('Escape');
 
   await page.click('[data-tab="branches"]');
   const rows = () => page.$$eval('#branches tbody tr', list => list.map(row => Number(row.dataset.branch)));

@@ -90,3 +90,26 @@ TEST_CASE("what does not fit a page is refused by name") {
                   })),
                   MeshError);
 }
+
+TEST_CASE("a page has parts and joints where the scene has them") {
+  ViewerScene scene = tetrahedron();
+  CHECK(description(format_viewer_page(scene))["rig"].is_null());
+  scene.part_of_vertex = {0, 0, 1, kNone};
+  scene.part_of_node = {0, 1};
+  scene.rig = {{"root", "limb1_1"}, {kNone, 0}, {0, 1}, {{0, 0, 0}, {1, 1, 1}}, {}, {}};
+  CHECK_THROWS_AS(format_viewer_page(scene), UsageError);
+  scene.rig.joints = std::vector<Index>(16, 1);
+  scene.rig.weights = std::vector<double>(16, 0.25);
+  const nlohmann::json json = description(format_viewer_page(scene));
+  CHECK(json["rig"]["names"] == nlohmann::json{"root", "limb1_1"});
+  CHECK(json["arrays"]["rig_weight"]["count"] == 16);
+  CHECK(json["arrays"]["part_of_vertex"]["count"] == 4);
+  scene.rig.joints[3] = 2;
+  CHECK_THROWS_AS(format_viewer_page(scene), UsageError);
+  scene.rig.joints[3] = 0;
+  scene.rig.parents[1] = 1;
+  CHECK_THROWS_AS(format_viewer_page(scene), UsageError);
+  scene.rig.parents[1] = 0;
+  scene.part_of_node = {0};
+  CHECK_THROWS_AS(format_viewer_page(scene), UsageError);
+}

@@ -31,6 +31,7 @@ export const kModes = [
   { id: 'radius', name: 'Radius', title: 'Radius of the inscribed ball', ramp: 'sequential' },
   { id: 'branch', name: 'Branch', title: 'Branches' },
   { id: 'node', name: 'Node', title: 'Nodes' },
+  { id: 'part', name: 'Part', title: 'Parts of the surface' },
   { id: 'plain', name: 'Plain', title: '' },
 ];
 
@@ -69,6 +70,7 @@ export class Painter {
       error: { vertex: data.slice_error ?? perVertex(graph.error), node: graph.error, unit: 1 },
       radius: { vertex: perVertex(graph.radius), node: graph.radius, unit: data.scale },
       node: { vertex: data.node_of_vertex, node: Int32Array.from({ length: graph.nodeCount }, (_, i) => i) },
+      part: { vertex: data.part_of_vertex, node: data.part_of_node },
       branch: { vertex: data.node_of_vertex && data.node_of_vertex.map(node => node < 0 ? -1 : graph.branchOfNode[node]), node: graph.branchOfNode },
     };
     for (const name of ['msp', 'error', 'radius']) this.values[name].scale = scaleOf(this.values[name].vertex ?? this.values[name].node);

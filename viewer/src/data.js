@@ -19,7 +19,7 @@ export function readData() {
   block.textContent = '';
   const data = { ...description };
   for (const name of ['skeleton_mesh', 'msp', 'slice_error', 'initial_msp', 'initial_slice_error', 'slice_normal',
-    'node_of_vertex']) data[name] = null;
+    'node_of_vertex', 'part_of_vertex', 'part_of_node', 'rig_joint', 'rig_weight']) data[name] = null;
   for (const [name, { type, offset, count }] of Object.entries(description.arrays))
     data[name] = new kTypes[type](bytes.buffer, offset, count);
   return data;

@@ -88,6 +88,14 @@ export class Ghost {
     this.hasty = wanted;
     for (const mesh of this.meshes) mesh.geometry = wanted ? this.coarse : this.geometry;
   }
+  /** After the surface's positions and normals have changed. */
+  moved() {
+    for (const name of ['position', 'normal']) this.geometry.getAttribute(name).needsUpdate = true;
+    const hasty = this.hasty;
+    this.haste(false);
+    this.coarse = null;  // of the surface as it was
+    this.haste(hasty);
+  }
   opacity(value) { this.front.material.uniforms.opacity.value = value; }
   show(on) { for (const mesh of this.meshes) mesh.visible = on; }
 }

@@ -1,3 +1,4 @@
+import { Bender } from './bend.js';
 import { chart } from './charts.js';
 import { gradient, kModes, numberColor, Painter, rampColor } from './colors.js';
 import { readData } from './data.js';
@@ -29,6 +30,7 @@ class App {
     this.table = new BranchTable(this.graph, { pick: branch => this.pickBranch(branch), hover: branch => this.hover(branch) });
     this.fillTitle();
     this.fillView();
+    this.fillBend();
     this.fillCharts();
     this.fillReport();
     this.listen();
@@ -55,11 +57,43 @@ class App {
       label.hidden = available[id] === false;
       $('#layers').append(label);
     });
-    for (const { id, name } of kModes)
+    this.modes = kModes.filter(({ id }) => id !== 'part' || this.data.part_of_vertex);
+    for (const { id, name } of this.modes)
       $('#modes').append(element('button', { type: 'button', role: 'radio', 'data-mode': id, 'aria-checked': 'false', onclick: () => this.colorBy(id) }, name));
     $('#opacity').addEventListener('input', event => this.opacity(event.target.value / 100));
     this.opacity($('#opacity').value / 100);
     for (const [name, value] of facts(this.data.report, this.surface, this.graph, this.data.scale)) $('#facts').append(element('dt', {}, name), element('dd', {}, value));
+  }
+
+  fillBend() {
+    if (!this.data.rig || !this.data.node_of_vertex) return;
+    this.bender = new Bender(this.data, this.surface, this.graph);
+    $('#bend').hidden = false;
+    $('#joint').append(...this.bender.names.map((name, j) => element('option', { value: String(j) }, name)));
+    const shown = () => this.bender.turns[$('#joint').value];
+    $('#joint').addEventListener('change', () => { $('#axis').value = shown().axis; $('#angle').value = shown().angle; this.mark(); });
+    for (const id of ['axis', 'angle'])
+      $(`#${id}`).addEventListener('input', () => this.bend(Number($('#joint').value), $('#axis').value, Number($('#angle').value)));
+    $('#straight').addEventListener('click', () => { $('#angle').value = 0; this.bender.straighten(); this.bent(); });
+  }
+
+  bend(joint, axis, angle) {
+    this.bender.turn(joint, axis, angle);
+    this.bent();
+  }
+
+  // The slice is that of the surface at rest.
+  bent() {
+    this.slice = null;
+    this.stage.showSlice(null, null, null);
+    this.stage.moved();
+    this.mark();
+  }
+
+  // The branch where the joint is.
+  mark() {
+    const node = this.data.rig.nodes[$('#joint').value];
+    this.stage.pick({ branch: this.graph.branchOfNode[node], node });
   }
 
   fillCharts() {
@@ -271,6 +305,8 @@ class App {
     if (picked.node >= 0) pairs.push(null, ['Node', String(picked.node)], ['Radius', number(unit * graph.radius[picked.node])], ['MSP', number(unit * graph.msp[picked.node])], ['Slice error', number(graph.error[picked.node])]);
     if (picked.vertex >= 0) {
       pairs.push(null, ['Vertex', String(picked.vertex)]);
+      if (data.part_of_vertex) pairs.push(['Part', String(data.part_of_vertex[picked.vertex])]);
+      if (this.bender) pairs.push(['Follows', this.bender.names[this.bender.strongest(picked.vertex)]]);
       if (data.msp) pairs.push(['MSP', number(unit * data.msp[picked.vertex])]);
       if (data.slice_error) pairs.push(['Slice error', number(data.slice_error[picked.vertex])]);
       if (this.slice) pairs.push(['This slice', number(unit * this.slice.perimeter)]);
@@ -308,8 +344,8 @@ class App {
   opacity(value) { this.stage.ghost.opacity(value); this.stage.draw(); }
 
   nextMode() {
-    const at = kModes.findIndex(mode => mode.id === this.mode.id);
-    this.colorBy(kModes[(at + 1) % kModes.length].id);
+    const at = this.modes.findIndex(mode => mode.id === this.mode.id);
+    this.colorBy(this.modes[(at + 1) % this.modes.length].id);
   }
 
   colorBy(id) {
@@ -327,7 +363,7 @@ class App {
       legend.replaceChildren(element('b', {}, mode.title), element('div', { class: 'bar', style: `background:${gradient(mode.ramp)}` }),
         element('div', { class: 'ends' }, ...[0, 0.5, 1].map(t => element('span', {}, number(Number((unit * (scale.low + t * (scale.high - scale.low))).toPrecision(3)))))));
     } else if (mode.id !== 'plain') {
-      const all = mode.id === 'branch' ? graph.branches.length : graph.nodeCount, some = Math.min(all, 12);
+      const all = mode.id === 'branch' ? graph.branches.length : mode.id === 'part' ? 1 + Math.max(...this.data.part_of_vertex) : graph.nodeCount, some = Math.min(all, 12);
       legend.replaceChildren(element('b', {}, mode.title), element('div', { class: 'swatches' }, ...Array.from({ length: some }, (_, i) => element('i', { style: `background:rgb(${numberColor(i).join(' ')})` }))),
         element('div', { class: 'ends' }, element('span', {}, '0'), element('span', {}, all > some ? `${some - 1} and on, to ${all - 1}` : String(all - 1))));
     }
@@ -368,6 +404,13 @@ function start() {
       branchCount: app.graph.branches.length,
       project: node => app.stage.project(app.graph.position.subarray(3 * node, 3 * node + 3)),
       projectVertex: vertex => app.stage.project(app.surface.position.subarray(3 * vertex, 3 * vertex + 3)),
+      jointNames: app.bender?.names ?? [],
+      jointParents: app.bender?.parents ?? [],
+      vertexCount: app.surface.vertexCount,
+      bend: (joint, axis, degrees) => app.bend(joint, axis, degrees),
+      position: vertex => Array.from(app.surface.position.subarray(3 * vertex, 3 * vertex + 3)),
+      joint: vertex => app.bender.strongest(vertex),
+      part: vertex => app.data.part_of_vertex[vertex],
       branchNodes: branch => Array.from(app.graph.branches[branch].nodes),
       state: () => ({
         picked: { ...app.picked }, mode: app.mode.id, layers: { ...app.stage.layers }, measuring: app.measuring, measured: app.measured && { length: app.measured.length, straight: app.measured.straight },

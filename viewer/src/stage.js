@@ -135,6 +135,13 @@ export class Stage {
     this.apply();
   }
 
+  /** After the surface's and the skeleton's positions have changed. */
+  moved() {
+    this.ghost.moved();
+    this.layTubes();
+    this.apply();
+  }
+
   /** The branch that is picked, the one that is pointed at, the node that is picked; -1: none. */
   pick(picked) {
     Object.assign(this.picked, picked);

@@ -5,19 +5,24 @@
 
 #include "mspskel/graph/curve_skeleton.h"
 #include "mspskel/mesh/surface_snapshot.h"
+#include "mspskel/segment/border_costs.h"
 #include "mspskel/segment/find_parts.h"
-#include "mspskel/segment/smooth_borders.h"
+#include "mspskel/segment/split_at_creases.h"
 
 namespace mspskel {
 
 struct SegmentOptions {
+  // parts.count is that of all parts; those of creases come after what the skeleton clearly shows and before
+  // the rest of what it could be cut into.
   PartOptions parts;
-  BorderOptions borders;
+  CreaseOptions creases;
+  CreasePartOptions crease_parts;  // most and least follow from parts.count
+  double border_width = 0.5;       // how far a border may move, in radii of a circle of its length; [0, 10]
 };
 
 struct Segmentation {
   std::vector<Index> part_of_face;  // 0 to count - 1, each on some face
-  std::vector<Index> part_of_node;  // of the skeleton; kNone where the part has no face
+  std::vector<Index> part_of_node;  // of the skeleton: the one with the most area of its faces; kNone: none
   Index count = 0;
 };
 
@@ -25,10 +30,10 @@ struct Segmentation {
 // its edges. Ascending by nodes. O(faces log faces).
 std::vector<NodeContact> node_contacts(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton);
 
-// find_parts on the skeleton, its parts carried to the faces by the surface map, then smooth_borders and
-// connect_parts. Every part is connected across edges, and parts are numbered from the largest area to the
-// smallest. Throws UsageError for options out of range or a skeleton whose map does not fit the surface.
-// Cost: O(parts * nodes^2) and a maximum flow about each border.
+// find_parts on the skeleton, its parts carried to the faces by the surface map, then smooth_borders,
+// connect_parts and split_at_creases. Every part is connected across edges, and parts are numbered from the
+// largest area to the smallest. Throws UsageError for options out of range or a skeleton whose map does not
+// fit the surface. Cost: O(parts * nodes^2) and a maximum flow about each border.
 Segmentation segment_surface(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton,
                              const SegmentOptions& options = {});
 

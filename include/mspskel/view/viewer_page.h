@@ -17,6 +17,16 @@ struct ViewerPlaces {
   std::vector<Vector3> positions;  // model coordinates
 };
 
+// Joints that bend the page's surface; empty: none.
+struct ViewerRig {
+  std::vector<std::string> names;
+  std::vector<Index> parents;      // before their children; kNone at the first
+  std::vector<Index> nodes;        // of the skeleton
+  std::vector<Vector3> positions;  // model coordinates
+  std::vector<Index> joints;       // four a vertex
+  std::vector<double> weights;     // four a vertex
+};
+
 // What the page shows; lengths in model units. Lists per vertex are empty or have one entry a point of the
 // surface.
 struct ViewerScene {
@@ -29,13 +39,16 @@ struct ViewerScene {
   std::vector<double> initial_msp;     // both before refinement, where there was one
   std::vector<double> initial_slice_error;
   std::vector<Vector3> slice_normal;  // per vertex: unit; zero without a slice
-  std::vector<ViewerPlaces> places;   // those where the skeleton is outside are found here
-  std::string report;                 // the text of a JSON object as `--report` writes it; empty: none
+  std::vector<Index> part_of_vertex;  // of the surface
+  std::vector<Index> part_of_node;    // one entry a node, or empty
+  ViewerRig rig;
+  std::vector<ViewerPlaces> places;  // those where the skeleton is outside are found here
+  std::string report;                // the text of a JSON object as `--report` writes it; empty: none
 };
 
 // The page's bytes. Numbers are kept as 32-bit floats about the middle of the surface. Throws UsageError for
 // a list of another length, an index out of range, a polygon that is no triangle, a surface without points,
-// or a report that is not JSON; MeshError for coordinates that are not finite. Size: about 0.9 MB and 100
+// or a report that is not JSON; MeshError for coordinates that are not finite. Size: about 0.9 MB and 150
 // bytes a vertex. Cost: O(faces + pieces of the skeleton).
 std::string format_viewer_page(const ViewerScene& scene);
 

@@ -1,0 +1,134 @@
+#include "mspskel/segment/split_at_creases.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <queue>
+#include <tuple>
+
+#include "mspskel/base/error.h"
+
+namespace mspskel {
+namespace {
+
+// Neighbours of a piece, ascending, and what the border costs. Few, so a sorted list beats a tree.
+using Borders = std::vector<std::pair<Index, double>>;
+
+Borders::iterator place_of(Borders& borders, Index piece) {
+  return std::lower_bound(borders.begin(), borders.end(), piece,
+                          [](const auto& entry, Index p) { return entry.first < p; });
+}
+void erase(Borders& borders, Index piece) { borders.erase(place_of(borders, piece)); }
+// Adds to the border with the piece; returns what it costs then.
+double add(Borders& borders, Index piece, double cost) {
+  const auto at = place_of(borders, piece);
+  if (at == borders.end() || at->first != piece) return borders.insert(at, {piece, cost})->second;
+  return at->second += cost;
+}
+
+// Pieces of parts that become one, pair by pair. A piece's number is that of one of its faces.
+class PieceMerger {
+ public:
+  PieceMerger(const SurfaceSnapshot& surface, const std::vector<double>& costs,
+              const std::vector<Index>& part_of_face, const CreasePartOptions& options)
+      : options_(options), into_(part_of_face.size()), border_(part_of_face.size()) {
+    std::iota(into_.begin(), into_.end(), 0);
+    count_ = surface.face_count();
+    for (Index f = 0; f < count_; ++f) area_.push_back(0.5 * surface.face_normal_times_twice_area(f).norm());
+    total_ = std::accumulate(area_.begin(), area_.end(), 0.0);
+    for (Index h = 0; h < surface.halfedge_count(); ++h) {
+      const Index f = h / 3, g = surface.twin[h] / 3;
+      if (f != g && part_of_face[f] == part_of_face[g]) add(border_[f], g, costs[h]);
+    }
+    for (Index f = 0; f < count_; ++f)
+      for (const auto& [g, cost] : border_[f])
+        if (f < g) push(f, g, cost);
+  }
+
+  void run() {
+    while (!queue_.empty() && count_ > options_.least) {
+      const Pair pair = queue_.top();
+      queue_.pop();
+      if (into_[pair.a] != pair.a || into_[pair.b] != pair.b) continue;
+      const auto found = place_of(border_[pair.a], pair.b);
+      if (worth(pair.a, pair.b, found->second) != pair.worth) continue;
+      const bool clean = pair.worth.first == 0 && pair.worth.second <= options_.cost;
+      if (clean && (options_.most == 0 || count_ <= options_.most)) return;
+      merge(pair.a, pair.b);
+    }
+  }
+  std::vector<Index> numbered() {
+    std::vector<Index> number(into_.size(), kNone), part(into_.size());
+    Index next = 0;
+    for (std::size_t f = 0; f < part.size(); ++f) {
+      Index piece = static_cast<Index>(f);
+      while (into_[piece] != piece) piece = into_[piece] = into_[into_[piece]];
+      if (number[piece] == kNone) number[piece] = next++;
+      part[f] = number[piece];
+    }
+    return part;
+  }
+
+ private:
+  using Worth = std::pair<int, double>;  // whether one is too small; cost of the border for its size
+  struct Pair {
+    Worth worth;
+    Index a, b;  // a < b
+    bool operator<(const Pair& other) const {
+      return std::tie(worth, other.a, other.b) < std::tie(other.worth, a, b);
+    }
+  };
+
+  Worth worth(Index a, Index b, double cost) const {
+    const double smaller = std::min(area_[a], area_[b]);
+    return {smaller < options_.smallest * total_ ? 1 : 0, smaller > 0 ? cost / std::sqrt(smaller) : total_};
+  }
+  void push(Index a, Index b, double cost) {
+    queue_.push({worth(a, b, cost), std::min(a, b), std::max(a, b)});
+  }
+  void merge(Index a, Index b) {
+    if (border_[a].size() < border_[b].size()) std::swap(a, b);
+    const double before = area_[a];
+    erase(border_[a], b);
+    erase(border_[b], a);
+    into_[b] = a;
+    area_[a] += area_[b];
+    --count_;
+    // The worth of a border is that of the smaller piece: of those that b did not touch only it can change.
+    for (const auto& [c, cost] : border_[a])
+      if (area_[c] > before) push(a, c, cost);
+    for (const auto& [c, cost] : border_[b]) {
+      erase(border_[c], b);
+      add(border_[c], a, cost);
+      push(a, c, add(border_[a], c, cost));
+    }
+    Borders().swap(border_[b]);
+  }
+
+  const CreasePartOptions options_;
+  std::vector<Index> into_;  // per piece: the one that it became part of; its own number: it stands
+  std::vector<Borders> border_;
+  std::vector<double> area_;
+  std::priority_queue<Pair> queue_;
+  Index count_ = 0;
+  double total_ = 0;
+};
+
+}  // namespace
+
+void validate(const CreasePartOptions& options) {
+  if (!(options.cost >= 0 && options.cost <= 100)) throw UsageError("creases: cost must be from 0 to 100");
+  if (!(options.smallest >= 0 && options.smallest <= 1))
+    throw UsageError("creases: smallest must be from 0 to 1");
+  if (options.most < 0 || options.least < 0) throw UsageError("creases: counts must not be negative");
+}
+
+void split_at_creases(const SurfaceSnapshot& surface, const std::vector<double>& costs,
+                      std::vector<Index>& part_of_face, const CreasePartOptions& options) {
+  validate(options);
+  PieceMerger merger(surface, costs, part_of_face, options);
+  merger.run();
+  part_of_face = merger.numbered();
+}
+
+}  // namespace mspskel
