@@ -50,6 +50,12 @@ class ChordPoints {
     return part(crossings_(base(surface_.origin[h]), base(surface_.target(h))), false);
   }
 
+  // Whether that step has its ends below the surface and stays inside.
+  bool stays_below(Index h) {
+    const Point a = (*this)(surface_.origin[h], kShallow), b = (*this)(surface_.target(h), kShallow);
+    return a.clearance > 0 && b.clearance > 0 && !solid_.segment_crosses(a.x, b.x);
+  }
+
   const Point& operator()(Index v, Layer layer) {
     const auto [it, fresh] = points_.try_emplace(2 * std::int64_t{v} + layer);
     if (!fresh) return it->second;
@@ -103,7 +109,7 @@ class TubeRouter {
         points_(surface, solid, crossings),
         hubs_(graph.hub_position.size()) {
     index_nodes();
-    if (crossings.has_loops()) link();
+    if (crossings.has_loops()) find_potential();
   }
 
   ClassRouting run(const Execution& execution) {
@@ -160,43 +166,41 @@ class TubeRouter {
         vertices_[fill[node]++] = static_cast<Index>(v);
   }
 
-  // Linking numbers of ways from the nodes' origins below the surface, and of the steps between nodes.
-  void link() {
-    linking_.resize(tubes_.node_of_vertex.size());
-    std::vector<bool> reached(linking_.size(), false);
-    std::vector<Index> queue;
+  // The surface's labels and the linking numbers of the straight steps below its edges differ by a potential
+  // of the vertices. It is carried along steps that stay inside; the few others, at edges as sharp as a step
+  // is deep, may pass on the wrong side of a loop.
+  void find_potential() {
+    potential_.resize(tubes_.node_of_vertex.size());
+    std::vector<bool> reached(potential_.size(), false);
+    std::vector<Index> queue, doubtful;
+    const auto reach = [&](Index h) {
+      const Index v = surface_.origin[h], w = surface_.target(h);
+      reached[w] = true;
+      potential_[w] = potential_[v] + points_.below(h) - points_.part(tubes_.halfedge[h], false);
+      queue.push_back(w);
+    };
     for (const Index root : vertices_) {
       if (reached[root]) continue;
       reached[root] = true;
-      queue.assign(1, root);
-      for (std::size_t i = 0; i < queue.size(); ++i)
-        for_each_outgoing(queue[i], [&](Index h) {
-          const Index w = surface_.target(h);
-          if (reached[w] || !within_node(h)) return;
-          reached[w] = true;
-          linking_[w] = linking_[queue[i]] + points_.below(h);
-          queue.push_back(w);
+      queue.push_back(root);
+      while (!queue.empty() || !doubtful.empty()) {
+        if (queue.empty()) {
+          const Index h = doubtful.back();
+          doubtful.pop_back();
+          if (!reached[surface_.target(h)]) reach(h);
+          continue;
+        }
+        const Index v = queue.back();
+        queue.pop_back();
+        for_each_outgoing(v, [&](Index h) {
+          if (reached[surface_.target(h)]) return;
+          if (points_.stays_below(h))
+            reach(h);
+          else
+            doubtful.push_back(h);
         });
+      }
     }
-    for (const ArcTube& tube : tubes_.arcs.tube) {
-      linking_of_tube_.emplace_back();
-      for (Index place = 0; place + 1 < static_cast<Index>(tube.nodes.size()); ++place)
-        linking_of_tube_.back() += linking_of_step(tube, place);
-    }
-  }
-  bool within_node(Index h) const {
-    const Index v = surface_.origin[h], w = surface_.target(h);
-    return tubes_.node_of_vertex[v] == tubes_.node_of_vertex[w] &&
-           tubes_.to_vertex[v] + tubes_.halfedge[h] == tubes_.to_vertex[w];
-  }
-  CocycleLabel linking_of_step(const ArcTube& tube, Index place) {
-    Index edge = kNone;
-    for (Index i = begin_[tube.nodes[place]]; i < begin_[tube.nodes[place] + 1] && edge == kNone; ++i)
-      for_each_outgoing(vertices_[i], [&](Index h) {
-        if (edge == kNone && follows(tube, place, h, place + 1)) edge = h;
-      });
-    if (edge == kNone) return {};
-    return linking_[surface_.origin[edge]] + points_.below(edge) - linking_[surface_.target(edge)];
   }
   template <class Visit>
   void for_each_outgoing(Index v, Visit visit) const {
@@ -208,14 +212,14 @@ class TubeRouter {
     } while (h != first);
   }
 
-  // Of a way from the origin of its node to the vertex.
+  // Of a way from the origin of its node to the vertex. What the origins' potential adds cancels along a tube.
   CocycleLabel to_vertex(Index v) const {
-    if (linking_.empty()) return tubes_.to_vertex[v];
-    return points_.part(tubes_.to_vertex[v], true) + linking_[v];
+    if (potential_.empty()) return tubes_.to_vertex[v];
+    return tubes_.to_vertex[v] + potential_[v];
   }
-  CocycleLabel along_halfedge(Index h) {
-    if (linking_.empty()) return tubes_.halfedge[h];
-    return points_.part(tubes_.halfedge[h], true) + points_.below(h);
+  CocycleLabel along_halfedge(Index h) const {
+    if (potential_.empty()) return tubes_.halfedge[h];
+    return tubes_.halfedge[h] + potential_[surface_.target(h)] - potential_[surface_.origin[h]];
   }
 
   // Finds a way from the origin of the hub's node to the hub: over the surface to the nearest vertex of its
@@ -252,10 +256,8 @@ class TubeRouter {
   CocycleLabel wanted(Index a) const {
     const Arc& arc = graph_.arcs[a];
     CocycleLabel label = hubs_[arc.hub[1]].from_origin - hubs_[arc.hub[0]].from_origin;
-    CocycleLabel steps;
-    for (const CocycleLabel& step : tubes_.arcs.tube[a].step) steps += step;
-    if (linking_.empty()) return label + steps;
-    return label + points_.part(steps, true) + linking_of_tube_[a];
+    for (const CocycleLabel& step : tubes_.arcs.tube[a].step) label += step;
+    return label;
   }
 
   bool is_right(Index a) const {
@@ -391,8 +393,7 @@ class TubeRouter {
   ChordPoints points_;
   std::vector<Hub> hubs_;
   std::vector<Index> begin_, vertices_;  // of each node
-  // Per vertex and per arc; empty where all cocycles are regions.
-  std::vector<CocycleLabel> linking_, linking_of_tube_;
+  std::vector<CocycleLabel> potential_;  // per vertex; empty where all cocycles are regions
   std::unordered_map<std::int64_t, Record> records_;
   std::priority_queue<Step, std::vector<Step>, std::greater<>> queue_;
   std::int64_t order_ = 0;
