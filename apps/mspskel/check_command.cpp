@@ -25,6 +25,9 @@ void print(const SkeletonChecks& c, const TopologyCertificate& certificate) {
   std::printf("topology     %s: %s and %s on a surface of %s and genus %d\n", c.topology ? "right" : "WRONG",
               counted(c.b0, "piece").c_str(), counted(c.b1, "cycle").c_str(),
               counted(c.components, "component").c_str(), c.genus);
+  if (certificate.small_handles > 0)
+    std::printf("             without %s too small for a cycle\n",
+                counted(certificate.small_handles, "handle").c_str());
   std::printf("certificate  %s%s%s\n", to_string(certificate.verdict), certificate.reason.empty() ? "" : ": ",
               certificate.reason.c_str());
   std::printf("inside       %.4g %% of the length; %s outside, %s through the surface\n", 100 * c.inside,
@@ -46,6 +49,7 @@ int check_command(const std::vector<std::string>& arguments) {
   std::string mesh_path, skeleton_path, json_path;
   double least_inside = 1;
   bool quiet = false;
+  CocycleOptions cocycle_options;
   Execution execution;
   RepairSettings repair;
   CommandLine line(
@@ -55,6 +59,8 @@ int check_command(const std::vector<std::string>& arguments) {
   line.argument("MESH", mesh_path, "mesh (.off .obj .ply .stl), - for stdin")->required();
   line.argument("SKELETON", skeleton_path, "skeleton (.skel .obj .ply .json)")->required();
   line.number("--least-inside", least_inside, {0, 1}, "share of the length that must be inside");
+  line.number("--smallest-handle", cocycle_options.smallest_handle, {0, 1},
+              "handles round which a shorter loop runs have no cycle; share of the extent, 0: none");
   line.text("--json", json_path, "FILE", "the figures as JSON; - for stdout, in place of the text");
   line.flag("-q,--quiet", quiet, "no text, only the exit status");
   line.number("-t,--threads", execution.threads, {0, 4096}, "0: as many as the machine has");
@@ -68,9 +74,12 @@ int check_command(const std::vector<std::string>& arguments) {
   const SurfaceSnapshot surface = make_snapshot(input.built.mesh);
   const CurveSkeleton skeleton = input.of_surface(read_skeleton(skeleton_path));
   const BoundingVolumeHierarchy solid(surface);
-  const SkeletonChecks checks = check_skeleton(surface, solid, skeleton, execution);
+  const VolumeCocycles cocycles = compute_volume_cocycles(surface, {}, cocycle_options);
+  SkeletonChecks checks = check_skeleton(surface, solid, skeleton, execution);
   const TopologyCertificate certificate =
-      certify(surface, compute_volume_cocycles(surface), solid, skeleton, CertificateDepth::kFull);
+      certify(surface, cocycles, solid, skeleton, CertificateDepth::kFull);
+  checks.genus -= certificate.small_handles;
+  checks.topology = checks.b0 == checks.components && checks.b1 == checks.genus;
   const Verdict verdict = judge(surface, certificate);
   const bool inside = least_inside < 1 ? checks.inside >= least_inside : checks.contained;
   if (!json_path.empty()) write_file_atomically(json_path, report_text(checks_json(checks, certificate)));

@@ -10,6 +10,7 @@
 #include "mspskel/collapse/detail/homology_generators.h"
 #include "mspskel/collapse/detail/linking_cocycles.h"
 #include "mspskel/collapse/label_rank.h"
+#include "mspskel/collapse/small_handles.h"
 
 namespace mspskel {
 namespace detail {
@@ -340,7 +341,13 @@ MSPSKEL_INLINE VolumeCocycles compute_volume_cocycles(const SurfaceSnapshot& sur
         !c.normal.allFinite())
       throw UsageError("slice candidate at vertex " + std::to_string(c.vertex) + " is not on the surface");
   report_progress(progress, "cocycles", 0.0);
-  return detail::CocycleSearch(surface, options, progress).run(std::move(candidates));
+  VolumeCocycles result = detail::CocycleSearch(surface, options, progress).run(std::move(candidates));
+  if (leave_out_small_handles(surface, options.smallest_handle, result, progress)) return result;
+  CocycleOptions linking = options;
+  linking.use_discs = linking.use_holed_regions = false;
+  result = detail::CocycleSearch(surface, linking, progress).run({});
+  leave_out_small_handles(surface, options.smallest_handle, result, progress);
+  return result;
 }
 
 }  // namespace mspskel
