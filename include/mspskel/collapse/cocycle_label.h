@@ -30,6 +30,13 @@ class CocycleLabel {
     return label;
   }
 
+  // By ascending index, no value 0.
+  static CocycleLabel from_entries(std::vector<Entry> entries) {
+    CocycleLabel label;
+    label.entries_ = std::move(entries);
+    return label;
+  }
+
   bool is_zero() const noexcept { return entries_.empty(); }
   // Nonzero components by ascending index.
   const std::vector<Entry>& entries() const noexcept { return entries_; }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mspskel/collapse/volume_cocycles.h"
-#include "mspskel/mesh/detail/box_tree.h"
+#include "mspskel/mesh/detail/box_index.h"
 
 namespace mspskel {
 
@@ -69,16 +69,9 @@ class CrossingLabels {
   struct LoopEdge {
     Index row, point;
   };
-  struct Boxes {
-    detail::BoxTree tree;
-    std::vector<Index> slots;
-  };
 
   void index_regions(const VolumeCocycles& cocycles);
   void index_loops();
-  // Calls visit(primitive) for those whose box may meet the box of a and b.
-  template <class Visit>
-  static void near(const Boxes& boxes, const Vector3& low, const Vector3& high, Visit visit);
   CocycleLabel label(const Vector3& a, const Vector3& b, bool below, bool& clear) const;
   static int region_crossing(const Row& row, const Vector3& a, const Vector3& b);
 
@@ -86,8 +79,8 @@ class CrossingLabels {
   std::vector<Row> rows_;    // per cocycle
   std::vector<Part> parts_;  // per entry of the labels
   std::vector<LoopEdge> loop_edges_;
-  Boxes regions_;  // of rows
-  Boxes loops_;    // of loop edges, in view coordinates, endless along the view
+  detail::BoxIndex regions_;  // of rows
+  detail::BoxIndex loops_;    // of loop edges, in view coordinates, endless along the view
 };
 
 }  // namespace mspskel

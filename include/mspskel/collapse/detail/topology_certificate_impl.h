@@ -64,8 +64,9 @@ inline CycleCrossings cross_cycles_along(const CrossingLabels& crossings, const 
     CocycleLabel own;
     for (const auto& [row, value] : loop.entries())
       if (crossings.component(row) == component[a]) own += CocycleLabel::unit(row, value);
-    for (Index row = 0; row < crossings.rank(); ++row)
-      if (crossings.component(row) == component[a] && loop[row] != check[row]) result.clear = false;
+    const CocycleLabel doubt = loop - check;
+    for (const auto& entry : doubt.entries())
+      if (crossings.component(entry.index) == component[a]) result.clear = false;
     rank.insert(own);
     if (static_cast<Index>(e) < edges_inside) result.dependent = result.cycles - rank.rank();
   }

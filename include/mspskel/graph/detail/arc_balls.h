@@ -8,6 +8,7 @@
 #include "mspskel/base/progress.h"
 #include "mspskel/graph/arc_graph.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
+#include "mspskel/mesh/detail/box_index.h"
 
 namespace mspskel {
 namespace detail {
@@ -90,6 +91,38 @@ struct ArcBalls {
         [&](Index i, int) { all[i]->radius = solid.distance(all[i]->centre); });
     for (auto& balls : of_arc) arc.emplace_back(std::move(balls));
   }
+};
+
+// All balls of the arcs by place.
+class BallIndex {
+ public:
+  explicit BallIndex(const ArcGraph& graph, const ArcBalls& balls) {
+    for (Index h = 0; h < graph.hub_count(); ++h)
+      if (graph.hub_alive[h]) balls_.push_back(balls.hub[h]);
+    for (const BallChain& chain : balls.arc)
+      balls_.insert(balls_.end(), chain.balls().begin(), chain.balls().end());
+    for (std::size_t i = 0; i < balls_.size(); ++i) {
+      const Vector3 reach = Vector3::Constant(balls_[i].radius);
+      index_.add(static_cast<Index>(i), balls_[i].centre - reach, balls_[i].centre + reach);
+    }
+    index_.build();
+  }
+
+  // As BallChain's, over all balls. Cost: the balls that come nearer than `distance`.
+  void find_nearest(const Vector3& x, double& distance, double& radius) const {
+    const Vector3 reach = Vector3::Constant(std::clamp(distance, 0.0, kBeyondAll));
+    index_.in_box(x - reach, x + reach, [&](Index i) {
+      const double outside = balls_[i].distance_outside(x);
+      if (outside > distance || (outside == distance && balls_[i].radius <= radius)) return;
+      distance = outside;
+      radius = balls_[i].radius;
+    });
+  }
+
+ private:
+  static constexpr double kBeyondAll = 16;  // model extents
+  std::vector<Ball> balls_;
+  BoxIndex index_;
 };
 
 }  // namespace detail

@@ -39,6 +39,7 @@ class LimbCompletion {
         step_(step),
         inner_(inner) {
     const ArcBalls balls(graph, solid, execution);
+    const BallIndex index(graph, balls);
     outside_.assign(surface.position.size(), 0.0);
     std::vector<std::uint8_t> covered(surface.position.size(), 1);
     parallel_for(
@@ -47,16 +48,11 @@ class LimbCompletion {
           const Index own = graph.arc_of_vertex[v];
           if (own == kNone && graph.hub_of_vertex[v] == kNone) return;
           const Vector3& x = surface.position[v];
-          double outside = std::numeric_limits<double>::infinity(), radius = 0;
-          for (Index h = 0; h < graph.hub_count(); ++h) {
-            const double beyond = balls.hub[h].distance_outside(x);
-            if (!graph.hub_alive[h] || beyond >= outside) continue;
-            outside = beyond;
-            radius = balls.hub[h].radius;
-          }
-          // The vertex's own arc first: few balls of others are nearer.
+          // The vertex's own arc or hub first: few balls of others are nearer.
+          const Ball& hub = balls.hub[own == kNone ? graph.hub_of_vertex[v] : graph.arcs[own].hub[0]];
+          double outside = hub.distance_outside(x), radius = hub.radius;
           if (own != kNone) balls.arc[own].find_nearest(x, outside, radius);
-          for (const BallChain& chain : balls.arc) chain.find_nearest(x, outside, radius);
+          index.find_nearest(x, outside, radius);
           outside_[v] = outside;
           covered[v] = outside <= radius;
         });
