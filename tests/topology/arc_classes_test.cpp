@@ -46,15 +46,8 @@ VoxelSolid random_voxel_solid(mspskel::test::Random& random) {
   return solid;
 }
 
-// A plate of n × n square holes.
-VoxelSolid plate(int n) {
-  VoxelSolid solid;
-  solid.box({0, 0, 0}, {2 * n + 1, 2 * n + 1, 1});
-  for (int i = 0; i < n * n; ++i) solid.cells.erase({2 * (i % n) + 1, 2 * (i / n) + 1, 0});
-  return solid;
-}
-
-void check_classes(const SurfaceSnapshot& s, const ExtractOptions& options) {
+void check_classes(const SurfaceSnapshot& s, ExtractOptions options) {
+  options.execution.threads = 1;  // threads of small meshes wait longer for each other than they work
   Index genus = 0;
   for (const Index twice : twice_euler_characteristics(s)) genus += (4 - twice) / 4;
   const ExtractResult result = extract_skeleton_of_snapshot(s, options);
@@ -87,7 +80,7 @@ TEST_CASE("labels of segments add up to zero round a null loop and to one round 
 }
 
 TEST_CASE("labels of a coarser surface tell the same loops") {
-  const SurfaceSnapshot s = snapshot_of(plate(3), 3);
+  const SurfaceSnapshot s = snapshot_of(pierced_plate(3), 3);
   CoarseningOptions options;
   options.vertices = 200;
   const CoarseSurface coarse = coarsen_surface(s, options);
@@ -162,8 +155,4 @@ TEST_CASE("cycles go round handles whose tubes have no inside, since the surface
       for (int k = 0; k < 3; ++k) mesh.point(v)[k] = kGrid * std::round(mesh.point(v)[k] / kGrid);
     check_classes(make_snapshot(mesh), default_options());
   }
-}
-
-TEST_CASE("cycles go round all holes of a plate, a hundred too") {
-  for (const int n : {3, 10}) check_classes(snapshot_of(plate(n), 1, 0.05), default_options());
 }

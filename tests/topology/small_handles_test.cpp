@@ -99,6 +99,7 @@ TEST_CASE("skeletons have all other cycles, and the certificate counts the small
     for (const double share : {0.4, 0.8}) {
       ExtractOptions options = default_options();
       options.coarsening.vertices = 300;
+      options.execution.threads = 1;
       options.cocycles.smallest_handle = share;
       options.cocycles.use_discs = options.cocycles.use_holed_regions = seed % 2 == 0;
       const ExtractResult result = extract_skeleton_of_snapshot(s, options);

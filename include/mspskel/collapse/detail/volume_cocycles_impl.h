@@ -191,6 +191,7 @@ inline void CocycleSearch::try_plane(Component& component, Index vertex, const V
   } while (h != first);
   --component.sections_left;
   ++result_.sections;
+  report_progress(progress_, "cocycles", 0.2);
   const auto plane = generic_plane(surface_, component.elements.vertices, vertex, normal, kWindow * longest);
   if (!plane) return;
   for (FlatRegion& region : flat_regions(surface_, component.elements, component.outward, *plane)) {
@@ -323,7 +324,6 @@ inline VolumeCocycles CocycleSearch::run(std::vector<SliceCandidate> candidates)
   index_loops();
   if (options_.use_discs || options_.use_holed_regions) {
     try_slices(candidates, true);
-    report_progress(progress_, "cocycles", 0.4);
     try_own_planes();
     if (any_open()) try_slices(std::move(candidates), false);
   }
