@@ -66,6 +66,12 @@ TEST_CASE("foams of genus 10, 100 and 500 have all cycles") {
   check_exact(foam(8), 500);
 }
 
+// Some minutes: high_genus_test "[long]".
+TEST_CASE("a plate and a lattice of genus 5000 have all cycles", "[.long]") {
+  check_exact(pierced_plate(71), 5041);
+  check_exact(lattice(14), 4901);
+}
+
 TEST_CASE("every stage that the handles make longer asks more often whether to stop") {
   std::map<std::string, int> asked[2];
   for (const int k : {0, 1}) {
