@@ -6,10 +6,13 @@
 #include <limits>
 #include <queue>
 #include <tuple>
+#include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
 #include "mspskel/base/progress.h"
+#include "mspskel/collapse/crossing_labels.h"
 #include "mspskel/graph/detail/inward_chord.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/mesh/detail/box_index.h"
@@ -87,8 +90,57 @@ class InnerGraph {
     return false;
   }
 
+  // As path(), among the ways with this label. False as well where the search comes by many labels before it
+  // finds one: so many ways round handles are as short.
+  bool path_of_class(const Vector3& a, const Vector3& b, const CrossingLabels& crossings,
+                     const CocycleLabel& wanted, std::vector<Vector3>& between) {
+    constexpr std::size_t kLabels = 4;  // as many as all points with so many labels each
+    std::vector<Place> places;
+    std::unordered_map<Index, std::vector<Index>> at;  // places of a vertex
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
+    for (const auto& [distance, v] : entries(a)) queue.push({step_cost(distance, clearance(v)), v, kNone});
+    std::unordered_set<Index> goal;
+    for (const auto& [distance, v] : entries(b)) goal.insert(v);
+    while (!queue.empty() && places.size() < kLabels * point_.size()) {
+      const auto [cost, v, before] = queue.top();
+      queue.pop();
+      CocycleLabel label = before == kNone
+                               ? crossings(a, point_[v])
+                               : places[before].label + crossings(point_[places[before].vertex], point_[v]);
+      std::vector<Index>& here = at[v];
+      if (std::any_of(here.begin(), here.end(), [&](Index p) { return places[p].label == label; }) ||
+          (before != kNone && solid_.segment_crosses(point_[places[before].vertex], point_[v])))
+        continue;
+      const auto place = static_cast<Index>(places.size());
+      here.push_back(place);
+      places.push_back({v, before, std::move(label)});
+      if (goal.count(v) > 0 && places[place].label + crossings(point_[v], b) == wanted) {
+        between.clear();
+        for (Index p = place; p != kNone; p = places[p].before) between.push_back(point_[places[p].vertex]);
+        std::reverse(between.begin(), between.end());
+        return true;
+      }
+      const Index first = surface_.vertex_halfedge[v];
+      Index h = first;
+      do {
+        const Index w = surface_.target(h);
+        h = surface_.next_outgoing(h);
+        if (!usable(w) || (before != kNone && places[before].vertex == w)) continue;
+        const double length = (point_[w] - point_[v]).norm();
+        queue.push({cost + step_cost(length, std::min(clearance(v), clearance(w))), w, place});
+      } while (h != first);
+    }
+    return false;
+  }
+
  private:
   static constexpr double kUnknown = -1.0;
+
+  // A point reached by ways of one class, and the place before it.
+  struct Place {
+    Index vertex, before;
+    CocycleLabel label;
+  };
 
   struct Mark {
     Index before = kNone;
@@ -99,7 +151,7 @@ class InnerGraph {
     return marks_[v];
   }
 
-  // Cost of the way to a vertex, the vertex, and the one before it.
+  // Cost of the way to a vertex, the vertex, and the vertex or place before it.
   using Entry = std::tuple<double, Index, Index>;
 
   void place(Index v) {
