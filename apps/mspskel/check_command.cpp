@@ -26,6 +26,9 @@ void print(const SkeletonChecks& c, const TopologyCertificate& certificate,
   std::printf("topology     %s: %s and %s on a surface of %s and genus %d\n", c.topology ? "right" : "WRONG",
               counted(c.b0, "piece").c_str(), counted(c.b1, "cycle").c_str(),
               counted(c.components, "component").c_str(), c.genus);
+  if (certificate.small_handles > 0)
+    std::printf("             without %s too small for a cycle\n",
+                counted(certificate.small_handles, "handle").c_str());
   std::printf("certificate  %s%s%s\n", to_string(certificate.verdict), certificate.reason.empty() ? "" : ": ",
               certificate.reason.c_str());
   std::printf("inside       %.4g %% of the length; %s outside, %s through the surface\n", 100 * c.inside,
@@ -55,6 +58,8 @@ class CheckCommand : public Command {
     table.argument("MESH", mesh_path_, "mesh (.off .obj .ply .stl), - for stdin")->required();
     table.argument("SKELETON", skeleton_path_, "skeleton (.skel .obj .ply .json)")->required();
     table.number("--least-inside", least_inside_, {0, 1}, "share of the length that must be inside");
+    table.number("--smallest-handle", cocycle_options_.smallest_handle, {0, 1},
+                 "handles round which a shorter loop runs have no cycle; share of the extent, 0: none");
     table.text("--json", json_path_, "FILE", "the figures as JSON; - for stdout, in place of the text");
     table.flag("-q,--quiet", quiet_, "no text, only the exit status");
     table.number("-t,--threads", execution_.threads, {0, 4096}, "0: as many as the machine has");
@@ -70,6 +75,7 @@ class CheckCommand : public Command {
   std::string mesh_path_, skeleton_path_, json_path_;
   double least_inside_ = 1;
   bool quiet_ = false;
+  CocycleOptions cocycle_options_;
   Execution execution_;
   RepairSettings repair_;
 };
@@ -82,9 +88,12 @@ int CheckCommand::run() {
   const SurfaceSnapshot surface = make_snapshot(input.built.mesh);
   const CurveSkeleton skeleton = input.of_surface(read_skeleton(skeleton_path_));
   const BoundingVolumeHierarchy solid(surface);
-  const SkeletonChecks checks = check_skeleton(surface, solid, skeleton, execution_);
+  const VolumeCocycles cocycles = compute_volume_cocycles(surface, {}, cocycle_options_);
+  SkeletonChecks checks = check_skeleton(surface, solid, skeleton, execution_);
   const TopologyCertificate certificate =
-      certify(surface, compute_volume_cocycles(surface), solid, skeleton, CertificateDepth::kFull);
+      certify(surface, cocycles, solid, skeleton, CertificateDepth::kFull);
+  checks.genus -= certificate.small_handles;
+  checks.topology = checks.b0 == checks.components && checks.b1 == checks.genus;
   const std::vector<UncoveredPart> uncovered =
       find_uncovered_parts(surface, solid, skeleton, CoverageOptions{}, execution_);
   const Verdict verdict = judge(surface, certificate, uncovered);

@@ -50,6 +50,7 @@ class OptionKeywords(TypedDict, total=False):
     angle_floor: float
     order: str
     keep_topology: bool
+    smallest_handle: float
     filter: bool
     filter_ball: float
     refine: bool

@@ -29,6 +29,7 @@ Json certificate_json(const TopologyCertificate& c) {
           {"components", c.components},
           {"nested_components", c.nested_components},
           {"genus", c.genus},
+          {"small_handles", c.small_handles},
           {"self_intersecting", c.self_intersecting},
           {"discs", c.discs},
           {"holed_regions", c.holed_regions},

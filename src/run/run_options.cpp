@@ -100,6 +100,8 @@ void add_collapse_options(CommandLine& line, ExtractOptions& options) {
                              "of the edges that collapse");
   line.toggle("keep-topology", collapse.keep_topology,
               "refuse what would lose or make a handle; without it, the thesis's literal behaviour");
+  line.number("--smallest-handle", options.cocycles.smallest_handle, {0, 1},
+              "handles round which a shorter loop runs get no cycle; share of the extent, 0: none");
   line.toggle("filter", options.filter_branches,
               "drop branches that do not leave their joint's ball, merge joints (thesis 6.1)");
   line.number("--filter-ball", options.filter.ball_scale, {0, 100}, "filter: the ball, in radii MSP / 2 pi");

@@ -59,6 +59,21 @@ class Check(ProgramTest):
                                     "--least-inside", 0.5).returncode, DONE)
 
 
+class SmallHandles(ProgramTest):
+    def test_skeleton_without_them_is_right_by_the_same_option(self):
+        self.run_program("sample", "plate", "plate.off", "--count", 4, "--resolution", 1500)
+        result = self.run_program("plate.off", "k.skel", "--smallest-handle", 1, "--report", "r.json")
+        self.assertEqual(result.returncode, DONE, result.stderr)
+        self.assertIn(b"4 handles too small for a cycle left out; the shortest loop", result.stderr)
+        with open(self.folder / "r.json", encoding="utf-8") as file:
+            checks = json.load(file)["checks"]
+        self.assertEqual((checks["genus"], checks["small_handles"], checks["b1"], checks["topology"]), ([4], 4, 0, "proved"))
+        self.assertEqual(self.run_program("check", "plate.off", "k.skel").returncode, NO_SKELETON)
+        result = self.run_program("check", "plate.off", "k.skel", "--smallest-handle", 1)
+        self.assertEqual(result.returncode, DONE, result.stderr)
+        self.assertIn(b"without 4 handles too small for a cycle", result.stdout)
+
+
 class Extract(ProgramTest):
     # Without its topology kept, the collapse of a torus of 14 faces loses the handle.
     LITERAL = ["-q", "--mode", "thesis", "--no-keep-topology"]

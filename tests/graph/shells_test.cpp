@@ -6,7 +6,9 @@
 
 #include "graph/solids.h"
 #include "mspskel/extract_skeleton.h"
+#include "mspskel/graph/cycle_rank.h"
 #include "mspskel/graph/limb_tips.h"
+#include "mspskel/graph/tighten_walls.h"
 #include "mspskel/samples/polygonise.h"
 
 using namespace mspskel;
@@ -106,6 +108,40 @@ TEST_CASE("A cup's loop runs straight down the wall, and an arc leads on to the 
       for (std::size_t i = 0; i < next.size(); ++i)
         if (next[i].size() == 1) CHECK((result.skeleton.nodes[i].position - Vector3(0, -1, 0)).norm() < 0.3);
     }
+}
+
+TEST_CASE("A loop round the far side of a cup's wall is drawn to the near one") {
+  const Solid solid(sample("cup", 4000));
+  const auto& frame = solid.surface.frame;
+  // From the top of the handle down it, then once round the wall and back up to the top.
+  std::vector<Vector3> points;
+  constexpr int kSteps = 60;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double angle = kPi * (0.5 - static_cast<double>(i) / kSteps);
+    points.emplace_back(0.97 + 0.65 * std::cos(angle), 0.05 + 0.6 * std::sin(angle), 0);
+  }
+  for (int i = 1; i <= kSteps; ++i) {
+    const double share = static_cast<double>(i) / kSteps, angle = 2 * kPi * share, y = 1.2 * share - 0.55,
+                 radius = 0.9 + 0.1 * y;
+    points.emplace_back(radius * std::cos(angle), y, radius * std::sin(angle));
+  }
+  for (Vector3& x : points) x = frame.to_normalised(x);
+  points.push_back(points.front());
+  ArcGraph graph;
+  const Index hub = graph.add_hub(points.front());
+  graph.arcs.push_back({{hub, hub}, points, true});
+  graph.arc_of_vertex.assign(solid.surface.position.size(), 0);
+  graph.hub_of_vertex.assign(solid.surface.position.size(), kNone);
+  const CrossingLabels crossings(compute_volume_cocycles(solid.surface));
+  REQUIRE(arc_length(graph.arcs[0]) * frame.scale > 7);
+  mspskel::detail::InnerGraph inner(solid.surface, solid.hierarchy);
+  tighten_in_walls(graph, solid.surface, solid.hierarchy, {true}, inner, 0.008, crossings);
+  CHECK(cycle_rank(graph, crossings).rank == 1);
+  double loop = 0;
+  for (const Arc& arc : graph.arcs)
+    if (arc.alive && graph.incidence()[arc.hub[1]].size() > 1) loop += arc_length(arc) * frame.scale;
+  // Handle 2.0, wall 1.2.
+  CHECK(loop < 1.3 * 3.2);
 }
 
 TEST_CASE("Tips in the wall of a shell are dropped, and a solid limb's is not") {

@@ -6,6 +6,7 @@
 #include "mspskel/collapse/detail/homology_generators.h"
 #include "mspskel/extract_skeleton.h"
 #include "mspskel/graph/merge_joints.h"
+#include "support/random_solid.h"
 #include "topology/voxel_solids.h"
 
 using namespace mspskel;
@@ -30,7 +31,7 @@ std::vector<Vector3> line(const SurfaceSnapshot& s, const std::vector<Vector3>& 
 }
 
 // A lattice of bars, or a block with a lattice of tunnels.
-VoxelSolid random_solid(mspskel::test::Random& random) {
+VoxelSolid random_voxel_solid(mspskel::test::Random& random) {
   VoxelSolid solid;
   do {
     solid = {};
@@ -45,15 +46,8 @@ VoxelSolid random_solid(mspskel::test::Random& random) {
   return solid;
 }
 
-// A plate of n × n square holes.
-VoxelSolid plate(int n) {
-  VoxelSolid solid;
-  solid.box({0, 0, 0}, {2 * n + 1, 2 * n + 1, 1});
-  for (int i = 0; i < n * n; ++i) solid.cells.erase({2 * (i % n) + 1, 2 * (i / n) + 1, 0});
-  return solid;
-}
-
-void check_classes(const SurfaceSnapshot& s, const ExtractOptions& options) {
+void check_classes(const SurfaceSnapshot& s, ExtractOptions options) {
+  options.execution.threads = 1;  // threads of small meshes wait longer for each other than they work
   Index genus = 0;
   for (const Index twice : twice_euler_characteristics(s)) genus += (4 - twice) / 4;
   const ExtractResult result = extract_skeleton_of_snapshot(s, options);
@@ -86,7 +80,7 @@ TEST_CASE("labels of segments add up to zero round a null loop and to one round 
 }
 
 TEST_CASE("labels of a coarser surface tell the same loops") {
-  const SurfaceSnapshot s = snapshot_of(plate(3), 3);
+  const SurfaceSnapshot s = snapshot_of(pierced_plate(3), 3);
   CoarseningOptions options;
   options.vertices = 200;
   const CoarseSurface coarse = coarsen_surface(s, options);
@@ -95,8 +89,8 @@ TEST_CASE("labels of a coarser surface tell the same loops") {
   for (Index f = 0; f < coarse.surface.face_count(); ++f)
     CHECK((labels.halfedge[3 * f] + labels.halfedge[3 * f + 1] + labels.halfedge[3 * f + 2]).is_zero());
   LabelRank rank;
-  for (const auto& generators :
-       detail::homology_generators(coarse.surface, detail::component_elements(coarse.surface)))
+  for (const auto& generators : mspskel::detail::homology_generators(
+           coarse.surface, mspskel::detail::component_elements(coarse.surface)))
     for (const auto& loop : generators.loop) {
       CocycleLabel sum;
       for (const Index h : loop) sum += labels.halfedge[h];
@@ -127,7 +121,7 @@ TEST_CASE("cycles go round all handles of random solids, coarsened ones too") {
   const int count = environment_count("MSPSKEL_RANDOM_MESHES", 24);
   for (int i = 0; i < count; ++i) {
     mspskel::test::Random random(static_cast<std::uint64_t>(i));
-    const VoxelSolid solid = random_solid(random);
+    const VoxelSolid solid = random_voxel_solid(random);
     ExtractOptions options = default_options();
     if (i % 2) options.coarsening.vertices = 300;
     INFO("seed " << i);
@@ -136,6 +130,29 @@ TEST_CASE("cycles go round all handles of random solids, coarsened ones too") {
   }
 }
 
-TEST_CASE("cycles go round all holes of a plate, a hundred too") {
-  for (const int n : {3, 10}) check_classes(snapshot_of(plate(n), 1, 0.05), default_options());
+TEST_CASE("cycles go round handles that linking numbers alone tell") {
+  RandomSolidOptions small;
+  small.least_vertices = 300;
+  small.most_vertices = 900;
+  ExtractOptions options = default_options();
+  options.cocycles.use_discs = options.cocycles.use_holed_regions = false;
+  // In 31 and 43 steps below edges of slivers leave the solid and pass a loop on the wrong side.
+  for (const std::uint64_t seed : {7, 19, 31, 43, 52}) {
+    INFO("seed " << seed);
+    check_classes(make_snapshot(random_solid(seed, small)), options);
+  }
+}
+
+TEST_CASE("cycles go round handles whose tubes have no inside, since the surface crosses itself") {
+  RandomSolidOptions small;
+  small.least_vertices = 300;
+  small.most_vertices = 900;
+  constexpr double kGrid = 0.1;  // coarser than many edges
+  for (const std::uint64_t seed : {12, 22, 31, 37}) {
+    INFO("seed " << seed);
+    DefaultMesh mesh = random_solid(seed, small);
+    for (const auto v : mesh.vertices())
+      for (int k = 0; k < 3; ++k) mesh.point(v)[k] = kGrid * std::round(mesh.point(v)[k] / kGrid);
+    check_classes(make_snapshot(mesh), default_options());
+  }
 }

@@ -136,6 +136,14 @@ inline VoxelSolid knotted_tunnel(int p, int q) {
   return block;
 }
 
+// A plate of n × n square holes.
+inline VoxelSolid pierced_plate(int n) {
+  VoxelSolid solid;
+  solid.box({0, 0, 0}, {2 * n + 1, 2 * n + 1, 1});
+  for (int i = 0; i < n * n; ++i) solid.cells.erase({2 * (i % n) + 1, 2 * (i / n) + 1, 0});
+  return solid;
+}
+
 // Nodes and links of a cubic lattice with n nodes a side, each kept at random.
 inline std::set<Cell> random_lattice(int n, double share, Random& random) {
   std::set<Cell> cells;

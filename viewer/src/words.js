@@ -2,8 +2,9 @@
 import { count, number, percent } from './format.js';
 
 function certificate(checks) {
-  const components = checks.components, genus = checks.genus.reduce((a, b) => a + b, 0);
-  const needs = count(components, 'piece') + (genus > 0 ? ` and ${count(genus, 'loop')}, one for each handle` : ' and no loop');
+  const components = checks.components, small = checks.small_handles ?? 0, genus = checks.genus.reduce((a, b) => a + b, 0) - small;
+  const needs = count(components, 'piece') + (genus > 0 ? ` and ${count(genus, 'loop')}, one for each handle` : ' and no loop')
+    + (small > 0 ? `; ${count(small, 'handle')} too small for a loop left out` : '');
   if (checks.topology === 'proved')
     return { level: 'good', title: 'Topology proved', text: `The skeleton has exactly what the solid asks for: ${needs}. ${genus > 0 ? 'Each loop was shown to go round a handle of its own. ' : ''}This follows from the shape alone, however the skeleton was made.` };
   if (checks.topology === 'kept')

@@ -30,6 +30,13 @@ class CocycleLabel {
     return label;
   }
 
+  // By ascending index, no value 0.
+  static CocycleLabel from_entries(std::vector<Entry> entries) {
+    CocycleLabel label;
+    label.entries_ = std::move(entries);
+    return label;
+  }
+
   bool is_zero() const noexcept { return entries_.empty(); }
   // Nonzero components by ascending index.
   const std::vector<Entry>& entries() const noexcept { return entries_; }
@@ -53,6 +60,11 @@ class CocycleLabel {
   }
   friend CocycleLabel operator+(CocycleLabel a, const CocycleLabel& b) { return std::move(a += b); }
   friend CocycleLabel operator-(CocycleLabel a, const CocycleLabel& b) { return std::move(a -= b); }
+  friend CocycleLabel operator*(CocycleLabel a, std::int32_t factor) {
+    if (factor == 0) return {};
+    for (Entry& e : a.entries_) e.value = narrow(std::int64_t{e.value} * factor);
+    return a;
+  }
 
  private:
   static std::int32_t narrow(std::int64_t value) {
@@ -83,5 +95,12 @@ class CocycleLabel {
 
   std::vector<Entry> entries_;
 };
+
+// The label under the linear map that takes the i-th unit vector to image[i].
+inline CocycleLabel mapped(const CocycleLabel& label, const std::vector<CocycleLabel>& image) {
+  CocycleLabel result;
+  for (const auto& [index, value] : label.entries()) result += image[static_cast<std::size_t>(index)] * value;
+  return result;
+}
 
 }  // namespace mspskel

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mspskel/collapse/volume_cocycles.h"
-#include "mspskel/mesh/detail/box_tree.h"
+#include "mspskel/mesh/detail/box_index.h"
 
 namespace mspskel {
 
@@ -24,11 +24,11 @@ class CrossingLabels {
   // for n points of regions and loops.
   explicit CrossingLabels(const VolumeCocycles& cocycles, int attempt = 0);
 
-  Index rank() const { return static_cast<Index>(rows_.size()); }
-  // The component of the surface that cocycle i belongs to.
-  Index component(Index i) const { return rows_[i].component; }
-  // Whether cocycle i is crossings with a flat region of the solid.
-  bool is_region(Index i) const { return !rows_[i].is_loop; }
+  Index rank() const { return static_cast<Index>(parts_.size()); }
+  // The component of the surface that entry i of the labels belongs to.
+  Index component(Index i) const { return parts_[i].component; }
+  // Whether entry i of the labels is crossings with flat regions of the solid.
+  bool is_region(Index i) const { return !parts_[i].is_loop; }
   // Whether some cocycle is a linking number.
   bool has_loops() const { return !loop_edges_.empty(); }
 
@@ -56,33 +56,31 @@ class CrossingLabels {
 
  private:
   struct Row {
-    Index component;
+    CocycleLabel image;  // what a crossing counts as
     bool is_loop;
     Plane plane;
     std::vector<std::vector<Eigen::Vector2d>> outlines;  // of a region, in the plane
     std::vector<Vector3> loop;                           // in view coordinates
   };
+  struct Part {
+    Index component = kNone;
+    bool is_loop = false;
+  };
   struct LoopEdge {
     Index row, point;
-  };
-  struct Boxes {
-    detail::BoxTree tree;
-    std::vector<Index> slots;
   };
 
   void index_regions(const VolumeCocycles& cocycles);
   void index_loops();
-  // Calls visit(primitive) for those whose box may meet the box of a and b.
-  template <class Visit>
-  static void near(const Boxes& boxes, const Vector3& low, const Vector3& high, Visit visit);
   CocycleLabel label(const Vector3& a, const Vector3& b, bool below, bool& clear) const;
   static int region_crossing(const Row& row, const Vector3& a, const Vector3& b);
 
-  Vector3 u_, v_, d_;  // view coordinates, the third toward the viewer
-  std::vector<Row> rows_;
+  Vector3 u_, v_, d_;        // view coordinates, the third toward the viewer
+  std::vector<Row> rows_;    // per cocycle
+  std::vector<Part> parts_;  // per entry of the labels
   std::vector<LoopEdge> loop_edges_;
-  Boxes regions_;  // of rows
-  Boxes loops_;    // of loop edges, in view coordinates, endless along the view
+  detail::BoxIndex regions_;  // of rows
+  detail::BoxIndex loops_;    // of loop edges, in view coordinates, endless along the view
 };
 
 }  // namespace mspskel

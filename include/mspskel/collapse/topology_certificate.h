@@ -52,6 +52,7 @@ struct TopologyCertificate {
   Index components = 0, nested_components = 0;  // the latter lie inside others; each is a solid of its own
   std::vector<Index> genus;                     // per component
   Index total_genus = 0;
+  Index small_handles = 0;  // of these, handles that are too small for a cycle by CocycleOptions
   bool self_intersecting = false;
 
   // What the cocycles come from, and how many are independent on the surface's loops.

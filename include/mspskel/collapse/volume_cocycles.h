@@ -45,6 +45,9 @@ struct CocycleOptions {
   int sections_per_handle = 6;
   bool use_discs = true;          // source 1
   bool use_holed_regions = true;  // source 2
+  // Handles round which shorter loops run on the surface get no cycle (small_handles.h): share of the extent,
+  // 0 to 1; 0: none.
+  double smallest_handle = 0.0;
 };
 
 // Throws UsageError naming the option.
@@ -54,6 +57,8 @@ inline void validate(const CocycleOptions& options) {
   if (options.sections_per_handle < 0 || options.sections_per_handle > 100000)
     throw UsageError("sections_per_handle must be from 0 to 100000, not " +
                      std::to_string(options.sections_per_handle));
+  if (!(options.smallest_handle >= 0 && options.smallest_handle <= 1))
+    throw UsageError("smallest handle must be from 0 to 1 of the extent");
 }
 
 enum class CocycleSource {
@@ -77,14 +82,27 @@ struct VolumeCocycle {
   std::vector<Vector3> loop;
 };
 
+// A handle without a cycle.
+struct SmallHandle {
+  double length = 0.0;           // of the shortest loop round it, normalised units
+  Vector3 at = Vector3::Zero();  // a place on that loop
+};
+
 struct VolumeCocycles {
-  Index rank = 0;                   // number of cocycles: the sum of the genera
+  Index rank = 0;                   // the sum of the genera, without the small handles
   std::vector<CocycleLabel> label;  // per half-edge, in Z^rank; label[twin] = −label; 0 summed round a face
   std::vector<Index> genus;         // per component
-  std::vector<VolumeCocycle> cocycle;                                // entry i is component i of the labels
+  std::vector<VolumeCocycle> cocycle;  // as many as the sum of the genera
+  // Per cocycle what a crossing of it counts as in the labels. Empty: entry i is component i of the labels.
+  std::vector<CocycleLabel> image;
+  std::vector<SmallHandle> small_handles;  // per component of the surface, by length
   Index discs = 0, holed_regions = 0, linking = 0, completions = 0;  // cocycles by source
   std::int64_t contours_traced = 0;  // work: contours tried against the generators
   std::int64_t sections = 0;         // work: planes cut with a whole component
+
+  CocycleLabel image_of(Index i) const {
+    return image.empty() ? CocycleLabel::unit(i) : image[static_cast<std::size_t>(i)];
+  }
 };
 
 // Candidates from the slices of the MSP stage: every vertex with a valid slice.
@@ -96,7 +114,8 @@ inline std::vector<SliceCandidate> slice_candidates(const VertexSlices& slices) 
 }
 
 // The cocycles of every component. `candidates` may be empty or cover any part of the surface: they only
-// serve to find small discs soon. The result has the genus of each component as rank in any case; where the
+// serve to find small discs soon. The result has the genus of each component as rank in any case, but for
+// small handles; where the
 // surface crosses itself the cocycles are still closed and independent but need not come from a solid.
 //
 // Postconditions: per face the labels add up to zero; the cocycles' values on loops are independent; each

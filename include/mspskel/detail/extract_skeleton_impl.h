@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <memory>
 #include <numeric>
 #include <optional>
@@ -204,6 +206,18 @@ inline void carry_over(ExtractResult& result, ArcGraph& arcs) {
   arcs.hub_of_vertex = carried_over(arcs.hub_of_vertex, from, kNone);
 }
 
+inline std::string small_handles_left_out(const ExtractResult& result) {
+  const std::vector<SmallHandle>& handles = result.cocycles.small_handles;
+  const auto& least =
+      *std::min_element(handles.begin(), handles.end(),
+                        [](const SmallHandle& a, const SmallHandle& b) { return a.length < b.length; });
+  const Vector3 at = result.surface.frame.to_model(least.at);
+  char text[128];
+  std::snprintf(text, sizeof text, "; the shortest loop, %.6g long, is at %.6g %.6g %.6g",
+                least.length * result.surface.frame.scale, at.x(), at.y(), at.z());
+  return counted(static_cast<Index>(handles.size()), "handle") + " too small for a cycle left out" + text;
+}
+
 inline void collect_warnings(ExtractResult& result) {
   if (result.skeleton_mesh.without_slice > 0)
     result.warnings.push_back("no valid slice at " +
@@ -213,6 +227,7 @@ inline void collect_warnings(ExtractResult& result) {
     result.warnings.push_back("no way inside was found for " +
                               counted(result.refinement.routing.unroutable, "stretch", "stretches") +
                               " of the skeleton outside the solid");
+  if (!result.cocycles.small_handles.empty()) result.warnings.push_back(small_handles_left_out(result));
   const UselessPieces useless = find_useless_pieces(result.surface, result.skeleton);
   if (useless.stubs > 0)
     result.warnings.push_back("the skeleton is shorter than a tenth of its extent in " +

@@ -86,6 +86,14 @@ inline void join_cocycles(VolumeCocycles part, const ComponentPlace& place, Volu
   for (std::size_t h = 0; h < part.label.size(); ++h)
     if (!part.label[h].is_zero())
       whole.label[place.halfedge(static_cast<Index>(h))] = shifted(part.label[h], whole.rank);
+  if (!part.image.empty() || !whole.image.empty()) {
+    for (auto i = static_cast<Index>(whole.image.size()); i < static_cast<Index>(whole.cocycle.size()); ++i)
+      whole.image.push_back(CocycleLabel::unit(i));
+    for (Index i = 0; i < static_cast<Index>(part.cocycle.size()); ++i)
+      whole.image.push_back(shifted(part.image_of(i), whole.rank));
+  }
+  for (SmallHandle handle : part.small_handles)
+    whole.small_handles.push_back({place.change.scale * handle.length, place.change(handle.at)});
   for (VolumeCocycle& cocycle : part.cocycle) {
     cocycle.component = place.component;
     for (auto& [h, value] : cocycle.values) h = place.halfedge(h);

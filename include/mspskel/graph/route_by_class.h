@@ -39,8 +39,8 @@ std::vector<bool> arcs_of_cycles(const ArcGraph& graph);
 // one after the other. A path along the edges of the mesh within the tube has the arc's class, and the same
 // path between the middles of the inward chords has it too where the crossings of each step say so. An arc
 // that leaves the solid, or whose crossings with the cocycles' regions are not those of its tube, takes the
-// path of least length / clearance of this kind; just below the surface where there is no other. Leaf arcs
-// close no cycle and stay.
+// path of least length / clearance of this kind; just below the surface where there is no other, and past the
+// surface where that crosses itself and leaves no way inside. Leaf arcs close no cycle and stay.
 //
 // Linking numbers are held against those of the same path just below the surface. Expects the arcs of
 // make_arc_graph. Cost: a label and a query a point; a shortest path within its tube an arc that is

@@ -9,27 +9,14 @@
 #include "mspskel/collapse/detail/linking_cocycles.h"
 
 namespace mspskel {
-namespace detail {
-
-// A box of single precision round the points, rounded outward.
-inline PrimitiveBox box_round(const Vector3& low, const Vector3& high, Index primitive) {
-  PrimitiveBox box;
-  for (Index k = 0; k < 3; ++k) {
-    box.low[k] = std::nextafter(static_cast<float>(low[k]), -std::numeric_limits<float>::infinity());
-    box.high[k] = std::nextafter(static_cast<float>(high[k]), std::numeric_limits<float>::infinity());
-  }
-  box.low[3] = 0;
-  box.primitive = primitive;
-  return box;
-}
-
-}  // namespace detail
-
 MSPSKEL_INLINE CrossingLabels::CrossingLabels(const VolumeCocycles& cocycles, int attempt) {
   const detail::View view(detail::view_direction(attempt));
   u_ = view.u, v_ = view.v, d_ = view.d;
+  parts_.resize(static_cast<std::size_t>(cocycles.rank));
   for (const VolumeCocycle& cocycle : cocycles.cocycle) {
-    Row row{cocycle.component, cocycle.contours.empty(), cocycle.plane, {}, {}};
+    Row row{
+        cocycles.image_of(static_cast<Index>(rows_.size())), cocycle.contours.empty(), cocycle.plane, {}, {}};
+    for (const auto& entry : row.image.entries()) parts_[entry.index] = {cocycle.component, row.is_loop};
     const detail::PlaneFrame frame(cocycle.plane.normal);
     for (const Contour& contour : cocycle.contours) {
       row.outlines.emplace_back();
@@ -43,43 +30,30 @@ MSPSKEL_INLINE CrossingLabels::CrossingLabels(const VolumeCocycles& cocycles, in
 }
 
 MSPSKEL_INLINE void CrossingLabels::index_regions(const VolumeCocycles& cocycles) {
-  std::vector<detail::PrimitiveBox> boxes;
-  double reach = 1;
-  for (Index i = 0; i < rank(); ++i) {
-    if (rows_[i].is_loop) continue;
+  for (Index i = 0; i < static_cast<Index>(rows_.size()); ++i) {
+    if (rows_[i].is_loop || rows_[i].image.is_zero()) continue;
     Eigen::AlignedBox3d box;
     for (const Vector3& p : cocycles.cocycle[i].contours.front().point) box.extend(p);
-    reach = std::max({reach, box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff()});
-    boxes.push_back(detail::box_round(box.min(), box.max(), i));
+    regions_.add(i, box.min(), box.max());
   }
-  if (!boxes.empty()) regions_.slots = regions_.tree.build(boxes, reach);
+  regions_.build();
 }
 
 MSPSKEL_INLINE void CrossingLabels::index_loops() {
   constexpr double kEndless = 1e3;  // model extents
-  std::vector<detail::PrimitiveBox> boxes;
-  for (Index i = 0; i < rank(); ++i) {
+  for (Index i = 0; i < static_cast<Index>(rows_.size()); ++i) {
+    if (rows_[i].image.is_zero()) continue;
     const std::vector<Vector3>& loop = rows_[i].loop;
     for (std::size_t k = 0; k < loop.size(); ++k) {
       Eigen::AlignedBox3d box(loop[k]);
       box.extend(loop[k + 1 == loop.size() ? 0 : k + 1]);
       box.min().z() = -kEndless;
       box.max().z() = kEndless;
-      boxes.push_back(detail::box_round(box.min(), box.max(), static_cast<Index>(loop_edges_.size())));
+      loops_.add(static_cast<Index>(loop_edges_.size()), box.min(), box.max());
       loop_edges_.push_back({i, static_cast<Index>(k)});
     }
   }
-  if (!boxes.empty()) loops_.slots = loops_.tree.build(boxes, kEndless);
-}
-
-template <class Visit>
-void CrossingLabels::near(const Boxes& boxes, const Vector3& low, const Vector3& high, Visit visit) {
-  if (boxes.slots.empty()) return;
-  boxes.tree.in_box(low, high, [&](Index first, Index count) {
-    for (Index i = first; i < first + count; ++i)
-      if (boxes.slots[i] != kNone) visit(boxes.slots[i]);
-    return true;
-  });
+  loops_.build();
 }
 
 // +1 from the plane's negative to its positive side.
@@ -95,20 +69,20 @@ MSPSKEL_INLINE int CrossingLabels::region_crossing(const Row& row, const Vector3
 MSPSKEL_INLINE CocycleLabel CrossingLabels::label(const Vector3& a, const Vector3& b, bool below,
                                                   bool& clear) const {
   CocycleLabel result;
-  near(regions_, a.cwiseMin(b), a.cwiseMax(b), [&](Index i) {
+  regions_.in_box(a.cwiseMin(b), a.cwiseMax(b), [&](Index i) {
     const int value = region_crossing(rows_[i], a, b);
-    if (value != 0) result += CocycleLabel::unit(i, value);
+    if (value != 0) result += rows_[i].image * value;
   });
   if (loop_edges_.empty()) return result;
   const Vector3 va(u_.dot(a), v_.dot(a), d_.dot(a)), vb(u_.dot(b), v_.dot(b), d_.dot(b));
-  near(loops_, va.cwiseMin(vb), va.cwiseMax(vb), [&](Index e) {
+  loops_.in_box(va.cwiseMin(vb), va.cwiseMax(vb), [&](Index e) {
     const std::vector<Vector3>& loop = rows_[loop_edges_[e].row].loop;
     const auto k = static_cast<std::size_t>(loop_edges_[e].point);
     detail::CrossingCount count;
     if (!detail::count_crossing(loop[k], loop[k + 1 == loop.size() ? 0 : k + 1], va, vb, count))
       clear = false;
     const std::int64_t value = below ? -count.below : count.above;
-    if (value != 0) result += CocycleLabel::unit(loop_edges_[e].row, static_cast<std::int32_t>(value));
+    if (value != 0) result += rows_[loop_edges_[e].row].image * static_cast<std::int32_t>(value);
   });
   return result;
 }
@@ -128,16 +102,14 @@ MSPSKEL_INLINE bool CrossingLabels::goes_round(const std::vector<Vector3>& ring)
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
-  bool round = false;
-  near(regions_, low, high, [&](Index row) {
-    int sum = 0;
-    for (std::size_t i = 0; i < ring.size() && !round; ++i)
-      sum += region_crossing(rows_[row], ring[i], next(i));
-    round = round || sum != 0;
-  });
-  if (round || loop_edges_.empty()) return round;
-  bool clear = true;
   CocycleLabel label;
+  regions_.in_box(low, high, [&](Index row) {
+    int sum = 0;
+    for (std::size_t i = 0; i < ring.size(); ++i) sum += region_crossing(rows_[row], ring[i], next(i));
+    if (sum != 0) label += rows_[row].image * sum;
+  });
+  if (!label.is_zero() || loop_edges_.empty()) return !label.is_zero();
+  bool clear = true;
   for (std::size_t i = 0; i < ring.size(); ++i) label += (*this)(ring[i], next(i), clear);
   return !clear || !label.is_zero();
 }

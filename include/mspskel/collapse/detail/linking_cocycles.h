@@ -5,7 +5,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <deque>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "mspskel/collapse/detail/homology_generators.h"
@@ -206,61 +208,80 @@ inline bool count_contact(const SurfaceSnapshot& surface, const View& view, Inde
   return true;
 }
 
-// periods[i][j]: linking number of dual loop i, pushed outward, with loop j, seen along one direction; none
-// if rounding gets in the way there.
-inline std::optional<std::vector<std::vector<std::int64_t>>> periods_along(
-    const SurfaceSnapshot& surface, const HomologyGenerators& generators, int outward,
-    const Vector3& direction) {
-  const View view(direction);
-  LoopBundle bundle(surface, generators.loop, view);
-  const std::size_t n = generators.loop.size();
-  std::vector<std::vector<std::int64_t>> periods(n, std::vector<std::int64_t>(n, 0));
-  for (std::size_t i = 0; i < n; ++i) {
-    std::vector<CrossingCount> count(n);
-    bool clear = true;
-    const auto add = [&](Index f, const Vector3& from, const Vector3& to) {
-      const Vector3 p = view(from), q = view(to);
-      bundle.near(p, q, [&](Index s) {
-        const LoopBundle::Segment& segment = bundle.segments()[s];
-        const Index other = SurfaceSnapshot::face(surface.twin[segment.halfedge]);
-        if (SurfaceSnapshot::face(segment.halfedge) == f || other == f) return;  // same triangle: never cross
-        CrossingCount one;
-        clear = clear && count_crossing(p, q, segment.a, segment.b, one);
-        for (const LoopBundle::Use& use : segment.uses) {
-          count[use.loop].above += use.times * one.above;
-          count[use.loop].below += use.times * one.below;
-        }
-      });
-    };
-    for (const Index h : generators.dual_loop[i]) {
-      const Index t = surface.twin[h], next = SurfaceSnapshot::face(t);
-      add(SurfaceSnapshot::face(h), centroid(surface, SurfaceSnapshot::face(h)), midpoint(surface, h));
-      add(next, midpoint(surface, h), centroid(surface, next));
-    }
-    clear = clear && count_contact(surface, view, generators.dual_loop[i].front(), outward, count[i]);
-    if (!clear) return std::nullopt;
-    for (std::size_t j = 0; j < n; ++j) {
-      if (count[j].above != -count[j].below) return std::nullopt;
-      periods[i][j] = count[j].above;
-    }
-  }
-  return periods;
-}
-
 }  // namespace linking
 
-// periods[i][j]: linking number of dual loop i, pushed out of the solid, with loop j on its surface. As
-// functions of j the rows span the cohomology of the solid: rank g. Empty if no direction gave a clear view,
-// which needs a surface that touches or crosses itself.
-inline std::vector<std::vector<std::int64_t>> linking_periods(const SurfaceSnapshot& surface,
-                                                              const HomologyGenerators& generators,
-                                                              int outward) {
-  constexpr int kDirections = 12;
-  for (int attempt = 0; attempt < kDirections; ++attempt)
-    if (auto periods = linking::periods_along(surface, generators, outward, view_direction(attempt)))
-      return *periods;
-  return {};
-}
+// Linking numbers of dual loops, pushed out of the solid, with the loops on its surface, one dual loop at a
+// time. As functions of the loops they span the cohomology of the solid: rank g.
+class LinkingPeriods {
+ public:
+  LinkingPeriods(const SurfaceSnapshot& surface, const HomologyGenerators& generators, int outward)
+      : surface_(surface), generators_(generators), outward_(outward), count_(generators.loop.size()) {}
+
+  // Pairs of a loop's number and dual loop i's linking number with it, without zeros. None if no direction
+  // gave a clear view, which needs a surface that touches or crosses itself.
+  std::optional<std::vector<std::pair<Index, std::int64_t>>> operator()(Index i) {
+    constexpr int kDirections = 12;
+    for (int attempt = 0; attempt < kDirections; ++attempt) {
+      if (static_cast<int>(seen_.size()) == attempt) seen_.emplace_back(surface_, generators_, attempt);
+      if (auto periods = along(seen_[static_cast<std::size_t>(attempt)], i)) return periods;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  struct Seen {
+    View view;
+    LoopBundle bundle;
+    Seen(const SurfaceSnapshot& surface, const HomologyGenerators& generators, int attempt)
+        : view(view_direction(attempt)), bundle(surface, generators.loop, view) {}
+  };
+
+  // Adds the crossings of a piece of dual loop, within face f, with all loops.
+  void add(Seen& seen, Index f, const Vector3& from, const Vector3& to, bool& clear) {
+    const Vector3 p = seen.view(from), q = seen.view(to);
+    seen.bundle.near(p, q, [&](Index s) {
+      const LoopBundle::Segment& segment = seen.bundle.segments()[s];
+      const Index other = SurfaceSnapshot::face(surface_.twin[segment.halfedge]);
+      if (SurfaceSnapshot::face(segment.halfedge) == f || other == f) return;  // same triangle: never cross
+      CrossingCount one;
+      clear = clear && count_crossing(p, q, segment.a, segment.b, one);
+      if (one.above == 0 && one.below == 0) return;
+      for (const LoopBundle::Use& use : segment.uses) {
+        crossed_.push_back(use.loop);
+        count_[use.loop].above += use.times * one.above;
+        count_[use.loop].below += use.times * one.below;
+      }
+    });
+  }
+
+  // Seen along one direction; none if rounding gets in the way there.
+  std::optional<std::vector<std::pair<Index, std::int64_t>>> along(Seen& seen, Index i) {
+    bool clear = true;
+    crossed_.assign(1, i);
+    for (const Index h : generators_.dual_loop[i]) {
+      const Index f = SurfaceSnapshot::face(h), next = SurfaceSnapshot::face(surface_.twin[h]);
+      add(seen, f, linking::centroid(surface_, f), linking::midpoint(surface_, h), clear);
+      add(seen, next, linking::midpoint(surface_, h), linking::centroid(surface_, next), clear);
+    }
+    clear = clear && linking::count_contact(surface_, seen.view, generators_.dual_loop[i].front(), outward_,
+                                            count_[i]);
+    std::vector<std::pair<Index, std::int64_t>> periods;
+    for (const Index j : crossed_) {
+      clear = clear && count_[j].above == -count_[j].below;
+      if (count_[j].above != 0) periods.push_back({j, count_[j].above});
+      count_[j] = {};
+    }
+    if (!clear) return std::nullopt;
+    return periods;
+  }
+
+  const SurfaceSnapshot& surface_;
+  const HomologyGenerators& generators_;
+  int outward_;
+  std::deque<Seen> seen_;             // per direction
+  std::vector<CrossingCount> count_;  // per loop, all zero between calls
+  std::vector<Index> crossed_;        // loops with a count, some more than once
+};
 
 }  // namespace detail
 }  // namespace mspskel

@@ -10,16 +10,25 @@
 #include "mspskel/collapse/detail/homology_generators.h"
 #include "mspskel/collapse/detail/linking_cocycles.h"
 #include "mspskel/collapse/label_rank.h"
+#include "mspskel/collapse/small_handles.h"
 
 namespace mspskel {
 namespace detail {
 
-inline CocycleLabel periods_label(const std::vector<std::int64_t>& periods) {
-  CocycleLabel label;
-  for (std::size_t i = 0; i < periods.size(); ++i)
-    if (periods[i] != 0)
-      label += CocycleLabel::unit(static_cast<Index>(i), static_cast<std::int32_t>(periods[i]));
-  return label;
+// Values on loops by their numbers, in any order: those of a loop add up. Few of them differ from zero,
+// however many loops there are.
+using LoopValues = std::vector<std::pair<Index, std::int64_t>>;
+
+inline CocycleLabel summed(LoopValues values) {
+  std::sort(values.begin(), values.end());
+  std::vector<CocycleLabel::Entry> entries;
+  for (std::size_t i = 0; i < values.size();) {
+    const Index loop = values[i].first;
+    std::int64_t sum = 0;
+    for (; i < values.size() && values[i].first == loop; ++i) sum += values[i].second;
+    if (sum != 0) entries.push_back({loop, static_cast<std::int32_t>(sum)});
+  }
+  return CocycleLabel::from_entries(std::move(entries));
 }
 
 // Finds the cocycles of all components, source by source.
@@ -54,10 +63,9 @@ class CocycleSearch {
   void try_linking(Component& component);
   void complete(Component& component);
 
-  std::vector<std::int64_t> crossings(const Component& component, const std::vector<Index>& halfedges) const;
+  CocycleLabel crossings(const std::vector<Index>& halfedges) const;
   bool keep_region(Component& component, const FlatRegion& region, const Plane& plane);
-  void keep_periods(Component& component, CocycleSource source, Index loop,
-                    const std::vector<std::int64_t>& periods);
+  void keep_periods(Component& component, CocycleSource source, Index loop, const CocycleLabel& periods);
   void write_labels();
 
   struct Use {
@@ -123,12 +131,11 @@ inline void CocycleSearch::index_loops() {
 }
 
 // Values on the generator loops of the cocycle that is 1 on these half-edges and −1 on their twins.
-inline std::vector<std::int64_t> CocycleSearch::crossings(const Component& component,
-                                                          const std::vector<Index>& halfedges) const {
-  std::vector<std::int64_t> sum(component.generators.loop.size(), 0);
+inline CocycleLabel CocycleSearch::crossings(const std::vector<Index>& halfedges) const {
+  LoopValues values;
   for (const Index h : halfedges)
-    for (Index i = slot_[h]; i < slot_[h + 1]; ++i) sum[uses_[i].loop] += uses_[i].sign;
-  return sum;
+    for (Index i = slot_[h]; i < slot_[h + 1]; ++i) values.push_back({uses_[i].loop, uses_[i].sign});
+  return summed(std::move(values));
 }
 
 // Whether some contour through the vertex bounds material and has new values on the loops: a look at the
@@ -146,7 +153,7 @@ inline bool CocycleSearch::independent_contour(Component& component, Index verte
       for (const Index crossed : contour.halfedge)
         touched_[surface_.origin[crossed]] = touched_[surface_.target(crossed)] = true;
       if (contour.area * component.outward > 0)
-        found = found || !component.echelon.depends(periods_label(crossings(component, contour.halfedge)));
+        found = found || !component.echelon.depends(crossings(contour.halfedge));
     }
     h = surface_.next_outgoing(h);
   } while (h != first);
@@ -157,7 +164,7 @@ inline bool CocycleSearch::keep_region(Component& component, const FlatRegion& r
   std::vector<Index> halfedges;
   for (const Contour& contour : region.contours)
     halfedges.insert(halfedges.end(), contour.halfedge.begin(), contour.halfedge.end());
-  if (!component.echelon.insert(periods_label(crossings(component, halfedges)))) return false;
+  if (!component.echelon.insert(crossings(halfedges))) return false;
   VolumeCocycle cocycle;
   cocycle.source = region.is_disc() ? CocycleSource::kDisc : CocycleSource::kHoledRegion;
   ++(region.is_disc() ? result_.discs : result_.holed_regions);
@@ -184,6 +191,7 @@ inline void CocycleSearch::try_plane(Component& component, Index vertex, const V
   } while (h != first);
   --component.sections_left;
   ++result_.sections;
+  report_progress(progress_, "cocycles", 0.2);
   const auto plane = generic_plane(surface_, component.elements.vertices, vertex, normal, kWindow * longest);
   if (!plane) return;
   for (FlatRegion& region : flat_regions(surface_, component.elements, component.outward, *plane)) {
@@ -259,18 +267,18 @@ inline void CocycleSearch::try_holed_regions(Component& component) {
 
 // The cocycle with the given values on the loops: the dual loops are cocycles with unit vectors as values.
 inline void CocycleSearch::keep_periods(Component& component, CocycleSource source, Index loop,
-                                        const std::vector<std::int64_t>& periods) {
-  if (!component.echelon.insert(periods_label(periods))) return;
+                                        const CocycleLabel& periods) {
+  if (!component.echelon.insert(periods)) return;
   VolumeCocycle cocycle;
   cocycle.source = source;
   ++(source == CocycleSource::kLinking ? result_.linking : result_.completions);
   cocycle.component = surface_.component[component.elements.vertices.front()];
   cocycle.loop = linking::polygon(surface_, component.generators.dual_loop[loop]);
   std::vector<std::pair<Index, std::int64_t>> terms;
-  for (std::size_t j = 0; j < periods.size(); ++j)
-    for (const Index h : component.generators.dual_loop[j]) {
+  for (const auto& [j, value] : periods.entries())
+    for (const Index h : component.generators.dual_loop[static_cast<std::size_t>(j)]) {
       const Index t = surface_.twin[h];
-      if (periods[j] != 0) terms.push_back({std::min(h, t), h < t ? periods[j] : -periods[j]});
+      terms.push_back({std::min(h, t), h < t ? value : -value});
     }
   std::sort(terms.begin(), terms.end());
   for (std::size_t i = 0; i < terms.size();) {
@@ -283,17 +291,20 @@ inline void CocycleSearch::keep_periods(Component& component, CocycleSource sour
 }
 
 inline void CocycleSearch::try_linking(Component& component) {
-  const auto periods = linking_periods(surface_, component.generators, component.outward);
-  for (std::size_t i = 0; i < periods.size() && component.open(); ++i)
-    keep_periods(component, CocycleSource::kLinking, static_cast<Index>(i), periods[i]);
+  LinkingPeriods periods(surface_, component.generators, component.outward);
+  for (std::size_t i = 0; i < component.generators.loop.size() && component.open(); ++i) {
+    if (i % 16 == 0) report_progress(progress_, "cocycles", 0.7);
+    const auto loop = static_cast<Index>(i);
+    if (const auto of_loop = periods(loop))
+      keep_periods(component, CocycleSource::kLinking, loop, summed(*of_loop));
+  }
 }
 
 inline void CocycleSearch::complete(Component& component) {
   const std::size_t n = component.generators.loop.size();
   for (std::size_t i = 0; i < n && component.open(); ++i) {
-    std::vector<std::int64_t> periods(n, 0);
-    periods[i] = 1;
-    keep_periods(component, CocycleSource::kCompletion, static_cast<Index>(i), periods);
+    const auto loop = static_cast<Index>(i);
+    keep_periods(component, CocycleSource::kCompletion, loop, CocycleLabel::unit(loop));
   }
 }
 
@@ -313,7 +324,6 @@ inline VolumeCocycles CocycleSearch::run(std::vector<SliceCandidate> candidates)
   index_loops();
   if (options_.use_discs || options_.use_holed_regions) {
     try_slices(candidates, true);
-    report_progress(progress_, "cocycles", 0.4);
     try_own_planes();
     if (any_open()) try_slices(std::move(candidates), false);
   }
@@ -340,7 +350,13 @@ MSPSKEL_INLINE VolumeCocycles compute_volume_cocycles(const SurfaceSnapshot& sur
         !c.normal.allFinite())
       throw UsageError("slice candidate at vertex " + std::to_string(c.vertex) + " is not on the surface");
   report_progress(progress, "cocycles", 0.0);
-  return detail::CocycleSearch(surface, options, progress).run(std::move(candidates));
+  VolumeCocycles result = detail::CocycleSearch(surface, options, progress).run(std::move(candidates));
+  if (leave_out_small_handles(surface, options.smallest_handle, result, progress)) return result;
+  CocycleOptions linking = options;
+  linking.use_discs = linking.use_holed_regions = false;
+  result = detail::CocycleSearch(surface, linking, progress).run({});
+  leave_out_small_handles(surface, options.smallest_handle, result, progress);
+  return result;
 }
 
 }  // namespace mspskel

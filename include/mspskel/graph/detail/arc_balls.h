@@ -92,5 +92,14 @@ struct ArcBalls {
   }
 };
 
+// Those of all arcs and of the hubs that are alive, in one list.
+inline std::vector<Ball> all_balls(const ArcGraph& graph, const ArcBalls& balls) {
+  std::vector<Ball> all;
+  for (Index h = 0; h < graph.hub_count(); ++h)
+    if (graph.hub_alive[h]) all.push_back(balls.hub[h]);
+  for (const BallChain& chain : balls.arc) all.insert(all.end(), chain.balls().begin(), chain.balls().end());
+  return all;
+}
+
 }  // namespace detail
 }  // namespace mspskel

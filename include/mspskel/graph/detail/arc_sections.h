@@ -25,25 +25,5 @@ inline std::array<double, 2> section_size(const BoundingVolumeHierarchy& solid, 
   return {section.half_width, perimeter};
 }
 
-// Lower quartiles over at most nine points of a polyline outside the ball: a way into a limb comes from what
-// is wider, and how much of it does is chance.
-inline std::array<double, 2> lower_section(const std::vector<Vector3>& points, const Ball& ball,
-                                           const BoundingVolumeHierarchy& solid) {
-  constexpr std::size_t kMost = 9;
-  std::vector<std::size_t> outside;
-  for (std::size_t i = 1; i + 1 < points.size(); ++i)
-    if ((points[i] - ball.centre).norm() >= ball.radius) outside.push_back(i);
-  std::vector<double> widths, perimeters;
-  const std::size_t count = std::min(kMost, outside.size());
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t i = outside[(2 * k + 1) * outside.size() / (2 * count)];
-    const auto [width, perimeter] = section_size(solid, points[i], points[i + 1] - points[i - 1]);
-    if (perimeter == 0) continue;
-    widths.push_back(width);
-    perimeters.push_back(perimeter);
-  }
-  return {value_at_rank(std::move(widths), 0.25), value_at_rank(std::move(perimeters), 0.25)};
-}
-
 }  // namespace detail
 }  // namespace mspskel

@@ -7,6 +7,7 @@
 #include "mspskel/base/linkage.h"
 #include "mspskel/graph/detail/arc_leaves.h"
 #include "mspskel/graph/detail/arc_sections.h"
+#include "mspskel/graph/detail/ball_tree.h"
 #include "mspskel/graph/detail/graph_points.h"
 #include "mspskel/graph/detail/polyline_ends.h"
 #include "mspskel/graph/detail/slender_parts.h"
@@ -30,20 +31,13 @@ class LimbCompletion {
         step_(step),
         inner_(inner) {
     const ArcBalls balls(graph, solid, execution);
+    const BallTree tree(all_balls(graph, balls));
     outside_.assign(surface.position.size(), 0.0);
     parallel_for(
         surface.vertex_count(), "arcs", execution, [] { return 0; },
         [&](Index v, int) {
-          const Index own = graph.arc_of_vertex[v];
-          if (own == kNone && graph.hub_of_vertex[v] == kNone) return;
-          const Vector3& x = surface.position[v];
-          double outside = std::numeric_limits<double>::infinity();
-          for (Index h = 0; h < graph.hub_count(); ++h)
-            if (graph.hub_alive[h]) outside = std::min(outside, balls.hub[h].distance_outside(x));
-          // The vertex's own arc first: few balls of others are nearer.
-          if (own != kNone) outside = balls.arc[own].distance_outside(x, kNever, outside);
-          for (const BallChain& chain : balls.arc) outside = chain.distance_outside(x, kNever, outside);
-          outside_[v] = outside;
+          if (graph.arc_of_vertex[v] == kNone && graph.hub_of_vertex[v] == kNone) return;
+          outside_[v] = tree.distance_outside(surface.position[v]);
         });
     hub_component_ = components_of_pieces(graph, surface);
   }

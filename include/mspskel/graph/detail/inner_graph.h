@@ -6,12 +6,16 @@
 #include <limits>
 #include <queue>
 #include <tuple>
+#include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
 #include "mspskel/base/progress.h"
+#include "mspskel/collapse/crossing_labels.h"
 #include "mspskel/graph/detail/inward_chord.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
+#include "mspskel/mesh/detail/box_index.h"
 #include "mspskel/mesh/surface_snapshot.h"
 
 namespace mspskel {
@@ -32,6 +36,10 @@ class InnerGraph {
     clearance_.assign(surface_.position.size(), 0.0);
     parallel_for(
         surface_.vertex_count(), "arcs", execution_, [] { return 0; }, [&](Index v, int) { place(v); });
+    for (Index v = 0; v < surface_.vertex_count(); ++v)
+      if (usable(v)) index_.add(v, point_[v], point_[v]);
+    index_.build();
+    marks_.assign(surface_.position.size(), {});
   }
 
   const SurfaceSnapshot& surface() const { return surface_; }
@@ -49,24 +57,23 @@ class InnerGraph {
     return best;
   }
 
-  // Points strictly between a and b along the cheapest path, or false.
+  // Points strictly between a and b along the cheapest path, or false. Cost: what the search comes by.
   bool path(const Vector3& a, const Vector3& b, std::vector<Vector3>& between) {
-    const Index n = surface_.vertex_count();
-    std::vector<Index> from(n, kNone);
-    std::vector<std::uint8_t> done(n, 0), goal(n, 0);
+    for (const Index v : marked_) marks_[v] = {};
+    marked_.clear();
     std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
     for (const auto& [distance, v] : entries(a)) queue.push({step_cost(distance, clearance(v)), v, kNone});
-    for (const auto& [distance, v] : entries(b)) goal[v] = 1;
+    for (const auto& [distance, v] : entries(b)) mark(v).goal = true;
     while (!queue.empty()) {
       const auto [cost, v, before] = queue.top();
       queue.pop();
       // Whether an edge stays inside is asked where it would be the cheapest way, which few edges are.
-      if (done[v] || (before != kNone && solid_.segment_crosses(point_[before], point_[v]))) continue;
-      done[v] = 1;
-      from[v] = before;
-      if (goal[v]) {
+      if (marks_[v].done || (before != kNone && solid_.segment_crosses(point_[before], point_[v]))) continue;
+      mark(v).done = true;
+      marks_[v].before = before;
+      if (marks_[v].goal) {
         between.clear();
-        for (Index w = v; w != kNone; w = from[w]) between.push_back(point_[w]);
+        for (Index w = v; w != kNone; w = marks_[w].before) between.push_back(point_[w]);
         std::reverse(between.begin(), between.end());
         return true;
       }
@@ -75,9 +82,52 @@ class InnerGraph {
       do {
         const Index w = surface_.target(h);
         h = surface_.next_outgoing(h);
-        if (!usable(w) || done[w]) continue;
+        if (!usable(w) || marks_[w].done) continue;
         const double length = (point_[w] - point_[v]).norm();
         queue.push({cost + step_cost(length, std::min(clearance(v), clearance(w))), w, v});
+      } while (h != first);
+    }
+    return false;
+  }
+
+  // As path(), among the ways with this label. False as well where the search comes by many labels before it
+  // finds one: so many ways round handles are as short.
+  bool path_of_class(const Vector3& a, const Vector3& b, const CrossingLabels& crossings,
+                     const CocycleLabel& wanted, std::vector<Vector3>& between) {
+    constexpr std::size_t kLabels = 4;  // as many as all points with so many labels each
+    std::vector<Place> places;
+    std::unordered_map<Index, std::vector<Index>> at;  // places of a vertex
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
+    for (const auto& [distance, v] : entries(a)) queue.push({step_cost(distance, clearance(v)), v, kNone});
+    std::unordered_set<Index> goal;
+    for (const auto& [distance, v] : entries(b)) goal.insert(v);
+    while (!queue.empty() && places.size() < kLabels * point_.size()) {
+      const auto [cost, v, before] = queue.top();
+      queue.pop();
+      CocycleLabel label = before == kNone
+                               ? crossings(a, point_[v])
+                               : places[before].label + crossings(point_[places[before].vertex], point_[v]);
+      std::vector<Index>& here = at[v];
+      if (std::any_of(here.begin(), here.end(), [&](Index p) { return places[p].label == label; }) ||
+          (before != kNone && solid_.segment_crosses(point_[places[before].vertex], point_[v])))
+        continue;
+      const auto place = static_cast<Index>(places.size());
+      here.push_back(place);
+      places.push_back({v, before, std::move(label)});
+      if (goal.count(v) > 0 && places[place].label + crossings(point_[v], b) == wanted) {
+        between.clear();
+        for (Index p = place; p != kNone; p = places[p].before) between.push_back(point_[places[p].vertex]);
+        std::reverse(between.begin(), between.end());
+        return true;
+      }
+      const Index first = surface_.vertex_halfedge[v];
+      Index h = first;
+      do {
+        const Index w = surface_.target(h);
+        h = surface_.next_outgoing(h);
+        if (!usable(w) || (before != kNone && places[before].vertex == w)) continue;
+        const double length = (point_[w] - point_[v]).norm();
+        queue.push({cost + step_cost(length, std::min(clearance(v), clearance(w))), w, place});
       } while (h != first);
     }
     return false;
@@ -86,7 +136,22 @@ class InnerGraph {
  private:
   static constexpr double kUnknown = -1.0;
 
-  // Cost of the way to a vertex, the vertex, and the one before it.
+  // A point reached by ways of one class, and the place before it.
+  struct Place {
+    Index vertex, before;
+    CocycleLabel label;
+  };
+
+  struct Mark {
+    Index before = kNone;
+    bool done = false, goal = false;
+  };
+  Mark& mark(Index v) {
+    marked_.push_back(v);
+    return marks_[v];
+  }
+
+  // Cost of the way to a vertex, the vertex, and the vertex or place before it.
   using Entry = std::tuple<double, Index, Index>;
 
   void place(Index v) {
@@ -107,15 +172,28 @@ class InnerGraph {
   // The nearest inner points that x sees.
   std::vector<std::pair<double, Index>> entries(const Vector3& x) const {
     constexpr std::size_t kWanted = 8, kTried = 64;
-    std::vector<std::pair<double, Index>> all;
-    for (Index v = 0; v < surface_.vertex_count(); ++v)
-      if (usable(v)) all.push_back({(point_[v] - x).norm(), v});
-    const auto end = all.begin() + static_cast<std::ptrdiff_t>(std::min(all.size(), kTried));
-    std::partial_sort(all.begin(), end, all.end());
     std::vector<std::pair<double, Index>> seen;
-    for (auto it = all.begin(); it != end && seen.size() < kWanted; ++it)
-      if (!solid_.segment_crosses(x, point_[it->second])) seen.push_back(*it);
+    for (const auto& entry : nearest_points(x, kTried))
+      if (seen.size() < kWanted && !solid_.segment_crosses(x, point_[entry.second])) seen.push_back(entry);
     return seen;
+  }
+
+  // The `count` points nearest to x, or all, by growing distance: from balls round it of growing radius.
+  std::vector<std::pair<double, Index>> nearest_points(const Vector3& x, std::size_t count) const {
+    constexpr double kFirst = 0.02, kBeyondAll = 16;  // model extents
+    std::vector<std::pair<double, Index>> found;
+    for (double radius = kFirst; found.size() < count && radius < kBeyondAll; radius *= 2) {
+      found.clear();
+      const Vector3 reach = Vector3::Constant(radius);
+      index_.in_box(x - reach, x + reach, [&](Index v) {
+        const double distance = (point_[v] - x).norm();
+        if (distance <= radius) found.push_back({distance, v});
+      });
+    }
+    const auto end = found.begin() + static_cast<std::ptrdiff_t>(std::min(found.size(), count));
+    std::partial_sort(found.begin(), end, found.end());
+    found.erase(end, found.end());
+    return found;
   }
 
   const SurfaceSnapshot& surface_;
@@ -123,6 +201,9 @@ class InnerGraph {
   const Execution execution_;
   std::vector<Vector3> point_;
   std::vector<double> clearance_;  // 0: no chord
+  BoxIndex index_;                 // of the usable points
+  std::vector<Mark> marks_;        // per vertex; of `marked_` alone they mean something
+  std::vector<Index> marked_;
 };
 
 }  // namespace detail

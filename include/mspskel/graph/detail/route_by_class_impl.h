@@ -4,6 +4,7 @@
 #include <functional>
 #include <queue>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include "mspskel/base/linkage.h"
@@ -23,7 +24,7 @@ class ChordPoints {
   enum Layer { kMiddle, kShallow };
   struct Point {
     Vector3 x = Vector3::Zero();
-    double clearance = 0.0;  // a lower bound of the distance to the surface; 0: there is no such point
+    double clearance = 0.0;  // a lower bound of the distance to the surface; 0: x is the vertex itself
     CocycleLabel from_vertex;
   };
 
@@ -50,10 +51,17 @@ class ChordPoints {
     return part(crossings_(base(surface_.origin[h]), base(surface_.target(h))), false);
   }
 
+  // Whether that step has its ends below the surface and stays inside.
+  bool stays_below(Index h) {
+    const Point a = (*this)(surface_.origin[h], kShallow), b = (*this)(surface_.target(h), kShallow);
+    return a.clearance > 0 && b.clearance > 0 && !solid_.segment_crosses(a.x, b.x);
+  }
+
   const Point& operator()(Index v, Layer layer) {
     const auto [it, fresh] = points_.try_emplace(2 * std::int64_t{v} + layer);
     if (!fresh) return it->second;
     Point point;
+    point.x = surface_.position[v];
     place(v, layer, point);
     return points_[2 * std::int64_t{v} + layer] = std::move(point);
   }
@@ -72,8 +80,9 @@ class ChordPoints {
             {depth, kShallowShare * chord->length, kOfEdge * (surface_.position[w] - position).norm()});
       });
     if (!(depth > 0)) return;
-    point.x = chord->start - depth * surface_.normal[v];
-    if (!solid_.inside(point.x)) return;
+    const Vector3 x = chord->start - depth * surface_.normal[v];
+    if (!solid_.inside(x)) return;
+    point.x = x;
     point.clearance = std::min(depth, solid_.closest(point.x, depth).distance);
     if (layer == kMiddle || !crossings_.has_loops())
       point.from_vertex = from_vertex(v, point.x);
@@ -103,7 +112,7 @@ class TubeRouter {
         points_(surface, solid, crossings),
         hubs_(graph.hub_position.size()) {
     index_nodes();
-    if (crossings.has_loops()) link();
+    if (crossings.has_loops()) find_potential();
   }
 
   ClassRouting run(const Execution& execution) {
@@ -118,9 +127,11 @@ class TubeRouter {
     result.checked = static_cast<Index>(arcs.size());
     for (std::size_t i = 0; i < arcs.size(); ++i) {
       report_progress(execution.progress, "arcs", static_cast<double>(i) / static_cast<double>(arcs.size()));
-      if (is_right(arcs[i])) continue;
+      const bool in_class = crossings_.along(graph_.arcs[arcs[i]].points) == wanted(arcs[i]);
+      if (in_class && stays_inside(arcs[i])) continue;
       execution_ = &execution;
-      ++(lead(arcs[i]) ? result.routed : result.abandoned);
+      const bool led = lead(arcs[i], false) || (!in_class && lead(arcs[i], true));
+      ++(led ? result.routed : result.abandoned);
     }
     return result;
   }
@@ -145,6 +156,7 @@ class TubeRouter {
   };
   static constexpr std::int64_t kStart = -1;
   static constexpr std::size_t kNear = 64;
+  static constexpr double kLeastClearance = 1e-9;
 
   void index_nodes() {
     Index nodes = 0;
@@ -160,43 +172,41 @@ class TubeRouter {
         vertices_[fill[node]++] = static_cast<Index>(v);
   }
 
-  // Linking numbers of ways from the nodes' origins below the surface, and of the steps between nodes.
-  void link() {
-    linking_.resize(tubes_.node_of_vertex.size());
-    std::vector<bool> reached(linking_.size(), false);
-    std::vector<Index> queue;
+  // The surface's labels and the linking numbers of the straight steps below its edges differ by a potential
+  // of the vertices. It is carried along steps that stay inside; the few others, at edges as sharp as a step
+  // is deep, may pass on the wrong side of a loop.
+  void find_potential() {
+    potential_.resize(tubes_.node_of_vertex.size());
+    std::vector<bool> reached(potential_.size(), false);
+    std::vector<Index> queue, doubtful;
+    const auto reach = [&](Index h) {
+      const Index v = surface_.origin[h], w = surface_.target(h);
+      reached[w] = true;
+      potential_[w] = potential_[v] + points_.below(h) - points_.part(tubes_.halfedge[h], false);
+      queue.push_back(w);
+    };
     for (const Index root : vertices_) {
       if (reached[root]) continue;
       reached[root] = true;
-      queue.assign(1, root);
-      for (std::size_t i = 0; i < queue.size(); ++i)
-        for_each_outgoing(queue[i], [&](Index h) {
-          const Index w = surface_.target(h);
-          if (reached[w] || !within_node(h)) return;
-          reached[w] = true;
-          linking_[w] = linking_[queue[i]] + points_.below(h);
-          queue.push_back(w);
+      queue.push_back(root);
+      while (!queue.empty() || !doubtful.empty()) {
+        if (queue.empty()) {
+          const Index h = doubtful.back();
+          doubtful.pop_back();
+          if (!reached[surface_.target(h)]) reach(h);
+          continue;
+        }
+        const Index v = queue.back();
+        queue.pop_back();
+        for_each_outgoing(v, [&](Index h) {
+          if (reached[surface_.target(h)]) return;
+          if (points_.stays_below(h))
+            reach(h);
+          else
+            doubtful.push_back(h);
         });
+      }
     }
-    for (const ArcTube& tube : tubes_.arcs.tube) {
-      linking_of_tube_.emplace_back();
-      for (Index place = 0; place + 1 < static_cast<Index>(tube.nodes.size()); ++place)
-        linking_of_tube_.back() += linking_of_step(tube, place);
-    }
-  }
-  bool within_node(Index h) const {
-    const Index v = surface_.origin[h], w = surface_.target(h);
-    return tubes_.node_of_vertex[v] == tubes_.node_of_vertex[w] &&
-           tubes_.to_vertex[v] + tubes_.halfedge[h] == tubes_.to_vertex[w];
-  }
-  CocycleLabel linking_of_step(const ArcTube& tube, Index place) {
-    Index edge = kNone;
-    for (Index i = begin_[tube.nodes[place]]; i < begin_[tube.nodes[place] + 1] && edge == kNone; ++i)
-      for_each_outgoing(vertices_[i], [&](Index h) {
-        if (edge == kNone && follows(tube, place, h, place + 1)) edge = h;
-      });
-    if (edge == kNone) return {};
-    return linking_[surface_.origin[edge]] + points_.below(edge) - linking_[surface_.target(edge)];
   }
   template <class Visit>
   void for_each_outgoing(Index v, Visit visit) const {
@@ -208,18 +218,20 @@ class TubeRouter {
     } while (h != first);
   }
 
-  // Of a way from the origin of its node to the vertex.
+  // Of a way from the origin of its node to the vertex. What the origins' potential adds cancels along a
+  // tube.
   CocycleLabel to_vertex(Index v) const {
-    if (linking_.empty()) return tubes_.to_vertex[v];
-    return points_.part(tubes_.to_vertex[v], true) + linking_[v];
+    if (potential_.empty()) return tubes_.to_vertex[v];
+    return tubes_.to_vertex[v] + potential_[v];
   }
-  CocycleLabel along_halfedge(Index h) {
-    if (linking_.empty()) return tubes_.halfedge[h];
-    return points_.part(tubes_.halfedge[h], true) + points_.below(h);
+  CocycleLabel along_halfedge(Index h) const {
+    if (potential_.empty()) return tubes_.halfedge[h];
+    return tubes_.halfedge[h] + potential_[surface_.target(h)] - potential_[surface_.origin[h]];
   }
 
   // Finds a way from the origin of the hub's node to the hub: over the surface to the nearest vertex of its
-  // part that sees the hub. Where none does the hub moves to a chord of its part.
+  // part that sees the hub. Where none does the hub moves to a chord of its part. Where there is no chord,
+  // the straight way to the hub is as good as any.
   void settle(Index h) {
     Hub& hub = hubs_[h];
     if (hub.settled) return;
@@ -247,22 +259,22 @@ class TubeRouter {
         hub.from_origin = to_vertex(v) + point.from_vertex;
         return;
       }
+    if (!hub.near.empty())
+      hub.from_origin = to_vertex(hub.near.front()) + points_.from_vertex(hub.near.front(), x);
   }
 
   CocycleLabel wanted(Index a) const {
     const Arc& arc = graph_.arcs[a];
     CocycleLabel label = hubs_[arc.hub[1]].from_origin - hubs_[arc.hub[0]].from_origin;
-    CocycleLabel steps;
-    for (const CocycleLabel& step : tubes_.arcs.tube[a].step) steps += step;
-    if (linking_.empty()) return label + steps;
-    return label + points_.part(steps, true) + linking_of_tube_[a];
+    for (const CocycleLabel& step : tubes_.arcs.tube[a].step) label += step;
+    return label;
   }
 
-  bool is_right(Index a) const {
+  bool stays_inside(Index a) const {
     const std::vector<Vector3>& points = graph_.arcs[a].points;
     for (std::size_t i = 1; i < points.size(); ++i)
       if (solid_.segment_crosses(points[i - 1], points[i])) return false;
-    return crossings_.along(points) == wanted(a);
+    return true;
   }
 
   std::int64_t key(const State& s) const {
@@ -280,16 +292,16 @@ class TubeRouter {
     return label.is_zero();
   }
 
-  // Whether a straight step between two points stays inside and has the class of the edge.
-  bool step_is_right(const State& from, const State& to, Index h) {
+  // Whether a straight step between two points has the class of the edge.
+  bool step_keeps_class(const State& from, const State& to, Index h) {
     const ChordPoints::Point a = points_(from.vertex, from.layer), b = points_(to.vertex, to.layer);
-    if (solid_.segment_crosses(a.x, b.x)) return false;
     const CocycleLabel edge = h == kNone ? CocycleLabel{} : along_halfedge(h);
     return a.from_vertex + crossings_(a.x, b.x) == edge + b.from_vertex;
   }
 
-  // The points of the hub's part that it sees, in its class, with what it costs to get there.
-  std::vector<std::pair<double, State>> entries(Index h, Index place) {
+  // The points of the hub's part that it sees, in its class, with what it costs to get there. From outside
+  // none has to be seen.
+  std::vector<std::pair<double, State>> entries(Index h, Index place, bool outside) {
     constexpr std::size_t kWanted = 8;
     std::vector<std::pair<double, State>> result;
     const Vector3 x = graph_.hub_position[h];
@@ -297,40 +309,44 @@ class TubeRouter {
       for (const Index v : hubs_[h].near) {
         if (result.size() >= kWanted) return result;
         const ChordPoints::Point& point = points_(v, layer);
-        if (point.clearance == 0 || solid_.segment_crosses(x, point.x)) continue;
+        const bool inside = point.clearance > 0 && !solid_.segment_crosses(x, point.x);
+        if (!inside && !outside) continue;
         const CocycleLabel label = to_vertex(v) + point.from_vertex + crossings_(point.x, x);
         if (label == hubs_[h].from_origin)
-          result.push_back({(point.x - x).norm() / point.clearance, {place, v, layer}});
+          result.push_back({cost_of(point.x - x, inside ? point.clearance : 0), {place, v, layer}});
       }
     }
     return result;
   }
 
-  bool lead(Index a) {
+  static double cost_of(const Vector3& step, double clearance) {
+    return step.norm() / std::max(clearance, kLeastClearance);
+  }
+
+  // The way of least length / clearance. One that may go outside does so where the surface has no inside,
+  // since it crosses itself: steps outside have no clearance, but the class of their edges.
+  bool lead(Index a, bool outside) {
     const ArcTube& tube = tubes_.arcs.tube[a];
     Arc& arc = graph_.arcs[a];
     records_.clear();
     queue_ = {};
-    for (const auto& [cost, state] : entries(arc.hub[0], 0)) push(state, cost, kStart, kNone);
-    std::unordered_map<std::int64_t, double> goal;
-    for (const auto& [cost, state] : entries(arc.hub[1], static_cast<Index>(tube.nodes.size()) - 1))
-      goal.emplace(key(state), cost);
+    for (const auto& [cost, state] : entries(arc.hub[0], 0, outside)) push({cost, state});
+    std::unordered_set<std::int64_t> goal;
+    for (const auto& [cost, state] : entries(arc.hub[1], static_cast<Index>(tube.nodes.size()) - 1, outside))
+      goal.insert(key(state));
     if (goal.empty()) return false;
     for (Index popped = 0; !queue_.empty(); ++popped) {
       if (popped % 1024 == 0) report_progress(execution_->progress, "arcs", 0.5);
       const Step step = queue_.top();
       queue_.pop();
       Record& record = records_[key(step.to)];
-      // Whether a step stays inside is asked where it would be the cheapest, which few steps are.
-      if (record.done ||
-          (step.before != kStart && !step_is_right(records_[step.before].state, step.to, step.halfedge)))
-        continue;
+      if (record.done || !may_go(step, outside)) continue;
       record = {step.to, step.cost, step.before, true};
       if (goal.count(key(step.to)) > 0) {
         write(arc, key(step.to));
         return true;
       }
-      expand(tube, step.to, step.cost);
+      expand(tube, step.to, step.cost, outside);
     }
     return false;
   }
@@ -338,28 +354,48 @@ class TubeRouter {
   struct Step {
     double cost;
     State to;
-    std::int64_t before;
-    Index halfedge;  // kNone: between the two points of a vertex
-    std::int64_t order;
+    std::int64_t before = kStart;
+    Index halfedge = kNone;  // kNone: between the two points of a vertex
+    bool outside = false;    // known to leave the solid, and to cost what that costs
+    std::int64_t order = 0;
     bool operator>(const Step& other) const {
       return cost != other.cost ? cost > other.cost : order > other.order;
     }
   };
 
-  void push(const State& to, double cost, std::int64_t before, Index halfedge) {
-    queue_.push({cost, to, before, halfedge, static_cast<std::int64_t>(order_++)});
+  void push(Step step) {
+    step.order = order_++;
+    queue_.push(step);
   }
 
-  void expand(const ArcTube& tube, const State& from, double cost) {
+  // Whether a step stays inside is asked where it would be the cheapest, which few steps are. One that does
+  // not is put back at its price, or dropped.
+  bool may_go(Step step, bool outside) {
+    if (step.before == kStart) return true;
+    const Record& from = records_[step.before];
+    if (!step.outside) {
+      const Vector3 a = points_(from.state.vertex, from.state.layer).x;
+      const Vector3 b = points_(step.to.vertex, step.to.layer).x;
+      if (solid_.segment_crosses(a, b)) {
+        if (!outside) return false;
+        step.outside = true;
+        step.cost = from.cost + cost_of(b - a, 0);
+        push(step);
+        return false;
+      }
+    }
+    return step_keeps_class(from.state, step.to, step.halfedge);
+  }
+
+  void expand(const ArcTube& tube, const State& from, double cost, bool outside) {
     const ChordPoints::Point here = points_(from.vertex, from.layer);
     const std::int64_t before = key(from);
     const auto step = [&](const State& to, Index h) {
       const auto known = records_.find(key(to));
       if (known != records_.end() && known->second.done) return;
       const ChordPoints::Point& there = points_(to.vertex, to.layer);
-      if (there.clearance == 0) return;
-      const double length = (there.x - here.x).norm();
-      push(to, cost + length / std::max(std::min(here.clearance, there.clearance), 1e-9), before, h);
+      if (there.clearance == 0 && !outside) return;
+      push({cost + cost_of(there.x - here.x, std::min(here.clearance, there.clearance)), to, before, h});
     };
     step({from.place, from.vertex,
           from.layer == ChordPoints::kMiddle ? ChordPoints::kShallow : ChordPoints::kMiddle},
@@ -391,8 +427,7 @@ class TubeRouter {
   ChordPoints points_;
   std::vector<Hub> hubs_;
   std::vector<Index> begin_, vertices_;  // of each node
-  // Per vertex and per arc; empty where all cocycles are regions.
-  std::vector<CocycleLabel> linking_, linking_of_tube_;
+  std::vector<CocycleLabel> potential_;  // per vertex; empty where all cocycles are regions
   std::unordered_map<std::int64_t, Record> records_;
   std::priority_queue<Step, std::vector<Step>, std::greater<>> queue_;
   std::int64_t order_ = 0;

@@ -238,7 +238,7 @@ class WallArcs {
       std::vector<Vector3> stretch(points.begin() + static_cast<std::ptrdiff_t>(i),
                                    points.begin() + static_cast<std::ptrdiff_t>(end + 1));
       if (end > i + 1) {
-        stretch = line_.tighten(std::move(stretch));
+        stretch = shortest(std::move(stretch));
         if (tube[i] && i > 0) ends_[component].push_back({arc, tight.size() - 1});
         if (tube[end] && end + 1 < points.size())
           ends_[component].push_back({arc, tight.size() + stretch.size() - 2});
@@ -247,6 +247,26 @@ class WallArcs {
       i = end;
     }
     points = std::move(tight);
+  }
+
+  // Heat flow stops at the nearest of the ways that no small move makes shorter: round the wall, say, where
+  // down is nearer. So the shortest way in the middle of the wall is tried as well.
+  std::vector<Vector3> shortest(std::vector<Vector3> stretch) {
+    const Vector3 from = stretch.front(), to = stretch.back();
+    const CocycleLabel label = crossings_.along(stretch);
+    std::vector<Vector3> tight = line_.tighten(std::move(stretch)), way{from}, between;
+    inner_.prepare();
+    if (!inner_.path_of_class(from, to, crossings_, label, between)) return tight;
+    way.insert(way.end(), between.begin(), between.end());
+    way.push_back(to);
+    way = line_.tighten(std::move(way));
+    return length_of(way) + step_ < length_of(tight) ? way : tight;
+  }
+
+  static double length_of(const std::vector<Vector3>& points) {
+    double length = 0;
+    for (std::size_t i = 1; i < points.size(); ++i) length += (points[i] - points[i - 1]).norm();
+    return length;
   }
 
   bool add_floor(const SolidMoments& moments, const std::vector<TubeEnd>& ends) {

@@ -1,0 +1,55 @@
+// Numbered boxes, and which of them a box may meet.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "mspskel/mesh/detail/box_tree.h"
+
+namespace mspskel {
+namespace detail {
+
+class BoxIndex {
+ public:
+  // Box i is from low to high. Cost: O(n log n).
+  void add(Index i, const Vector3& low, const Vector3& high) {
+    PrimitiveBox box;
+    for (Index k = 0; k < 3; ++k) {
+      // Rounded outward to single precision.
+      box.low[k] = std::nextafter(static_cast<float>(low[k]), -std::numeric_limits<float>::infinity());
+      box.high[k] = std::nextafter(static_cast<float>(high[k]), std::numeric_limits<float>::infinity());
+    }
+    box.low[3] = 0;
+    box.primitive = i;
+    reach_ = std::max({reach_, low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff()});
+    boxes_.push_back(box);
+  }
+
+  // Once, after all boxes are in.
+  void build() {
+    if (!boxes_.empty()) slots_ = tree_.build(boxes_, reach_);
+    boxes_ = {};
+  }
+
+  // Calls visit(i) for the boxes that [low, high] may meet, in no order that means anything.
+  template <class Visit>
+  void in_box(const Vector3& low, const Vector3& high, Visit visit) const {
+    if (slots_.empty()) return;
+    tree_.in_box(low, high, [&](Index first, Index count) {
+      for (Index slot = first; slot < first + count; ++slot)
+        if (slots_[slot] != kNone) visit(slots_[slot]);
+      return true;
+    });
+  }
+
+ private:
+  std::vector<PrimitiveBox> boxes_;  // until they are built
+  double reach_ = 1.0;
+  BoxTree tree_;
+  std::vector<Index> slots_;
+};
+
+}  // namespace detail
+}  // namespace mspskel

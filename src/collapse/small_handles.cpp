@@ -1,0 +1,3 @@
+#include "mspskel/collapse/small_handles.h"
+
+#include "mspskel/collapse/detail/small_handles_impl.h"
