@@ -45,7 +45,7 @@ struct CocycleOptions {
   int sections_per_handle = 6;
   bool use_discs = true;          // source 1
   bool use_holed_regions = true;  // source 2
-  // Handles round which shorter loops run on the surface get no cycle (small_handles.h): share of the extent,
+  // Handles round which shorter loops run on the surface get no cycle: share of the extent,
   // 0 to 1; 0: none.
   double smallest_handle = 0.0;
 };
@@ -126,6 +126,18 @@ VolumeCocycles compute_volume_cocycles(const SurfaceSnapshot& surface,
                                        std::vector<SliceCandidate> candidates = {},
                                        const CocycleOptions& options = {},
                                        const ProgressCallback& progress = {});
+
+// Leaves out the handles round which loops shorter than `share` (0 to 1) of their component's extent run
+// along edges of the surface: the labels become those of the solid in which such loops are filled. What they
+// tell apart is told apart in the solid too, and the rank falls by the number of independent classes of such
+// loops, which are listed in `small_handles`. A thin handle that closes a long way round is not small: no
+// short loop goes round it that the solid cannot fill.
+//
+// Returns false and changes nothing where crossings with regions would have to be added to linking numbers.
+// Cost: a tree of shortest paths within half that length for each vertex at an edge with a label. Throws
+// Cancelled.
+bool leave_out_small_handles(const SurfaceSnapshot& surface, double share, VolumeCocycles& cocycles,
+                             const ProgressCallback& progress = {});
 
 }  // namespace mspskel
 

@@ -164,7 +164,7 @@ class FilledLabels {
 };
 
 // Of each component, normalised units: what the frame of the component alone would have as 1.
-inline std::vector<double> component_extents(const SurfaceSnapshot& surface) {
+inline std::vector<double> frame_extents(const SurfaceSnapshot& surface) {
   if (surface.component_count == 1) return {1.0};
   std::vector<double> result;
   for (const ComponentElements& component : component_elements(surface)) {
@@ -186,7 +186,7 @@ inline std::vector<double> component_extents(const SurfaceSnapshot& surface) {
 MSPSKEL_INLINE bool leave_out_small_handles(const SurfaceSnapshot& surface, double share,
                                             VolumeCocycles& cocycles, const ProgressCallback& progress) {
   if (!(share > 0) || cocycles.rank == 0) return true;
-  std::vector<double> longest = detail::component_extents(surface);
+  std::vector<double> longest = detail::frame_extents(surface);
   for (double& length : longest) length *= share;
   const auto loops = detail::ShortLoopSearch(surface, cocycles.label).run(longest, progress);
   if (loops.empty()) return true;

@@ -9,8 +9,8 @@
 #include "mspskel/collapse/detail/flat_regions.h"
 #include "mspskel/collapse/detail/homology_generators.h"
 #include "mspskel/collapse/detail/linking_cocycles.h"
+#include "mspskel/collapse/detail/small_handles_impl.h"
 #include "mspskel/collapse/label_rank.h"
-#include "mspskel/collapse/small_handles.h"
 
 namespace mspskel {
 namespace detail {
