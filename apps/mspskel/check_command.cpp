@@ -36,11 +36,10 @@ void print(const SkeletonChecks& c, const TopologyCertificate& certificate,
   std::printf("off centre   mean %.4f, 90th percentile %.4f (0: centred, 1: at the wall)\n",
               c.off_centre_mean, c.off_centre_p90);
   std::printf("cover        mean %.4f, 95th percentile %.4f of the diagonal\n", c.cover_mean, c.cover_p95);
-  if (uncovered.empty())
-    std::printf("coverage     every part of %.3g widths has an arc\n", kMissedWidths);
+  if (uncovered.empty()) std::printf("coverage     every part of %.3g widths has an arc\n", kMissedWidths);
   for (const UncoveredPart& part : uncovered)
-    std::printf("coverage     NO ARC in a part of %.2g widths at %.6g %.6g %.6g\n", part.widths, part.position.x(),
-                part.position.y(), part.position.z());
+    std::printf("coverage     NO ARC in a part of %.2g widths at %.6g %.6g %.6g\n", part.widths,
+                part.position.x(), part.position.y(), part.position.z());
   std::printf("graph        %s, %s, %s, %s, %s\n", counted(c.nodes, "node").c_str(),
               counted(c.edges, "edge").c_str(), counted(c.leaves, "leaf", "leaves").c_str(),
               counted(c.joints, "joint").c_str(), counted(c.spurs, "spur").c_str());
@@ -98,7 +97,8 @@ int CheckCommand::run() {
       find_uncovered_parts(surface, solid, skeleton, CoverageOptions{}, execution_);
   const Verdict verdict = judge(surface, certificate, uncovered);
   const bool inside = least_inside_ < 1 ? checks.inside >= least_inside_ : checks.contained;
-  if (!json_path_.empty()) write_file_atomically(json_path_, report_text(checks_json(checks, certificate, uncovered)));
+  if (!json_path_.empty())
+    write_file_atomically(json_path_, report_text(checks_json(checks, certificate, uncovered)));
   if (!quiet_ && json_path_ != "-") print(checks, certificate, uncovered);
   if (!verdict.failure.empty()) throw NoSkeletonError(verdict.failure);
   if (inside) return 0;

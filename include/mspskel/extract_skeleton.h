@@ -38,8 +38,8 @@ struct ExtractOptions {
   Mode mode = Mode::kDefault;
   // The stages walk on a surface as fine as a skeleton needs. Where the input has more vertices, slices,
   // skeletal points and the collapse run on a coarser one; arcs are centred in the input's solid, and values
-  // are carried over to its vertices. Where it has fewer and long edges, all runs on one with those edges cut,
-  // and the input gets what its own vertices have there.
+  // are carried over to its vertices. Where it has fewer and long edges, all runs on one with those edges
+  // cut, and the input gets what its own vertices have there.
   bool coarsen = true;
   CoarseningOptions coarsening;
   SubdivisionOptions subdivision;

@@ -83,8 +83,8 @@ Json coverage_json(const std::vector<UncoveredPart>& uncovered) {
 
 }  // namespace
 
-Json make_report(const std::string& file, const ExtractResult& result,
-                 const TopologyCertificate& certificate, const std::vector<UncoveredPart>& uncovered) {
+Json make_report(const std::string& file, const ExtractResult& result, const TopologyCertificate& certificate,
+                 const std::vector<UncoveredPart>& uncovered) {
   const GraphCounts graph = count_graph(result.skeleton);
   Json checks = certificate_json(certificate);
   checks["coverage"] = coverage_json(uncovered);

@@ -20,8 +20,8 @@ struct ProgramSeconds {
 
 // What was found, the same on every run: input, counts, skeleton, checks, warnings. `file` is the mesh's; the
 // checks are the certificate.
-Json make_report(const std::string& file, const ExtractResult& result,
-                 const TopologyCertificate& certificate, const std::vector<UncoveredPart>& uncovered);
+Json make_report(const std::string& file, const ExtractResult& result, const TopologyCertificate& certificate,
+                 const std::vector<UncoveredPart>& uncovered);
 
 // With what differs from run to run: the options' values, seconds, peak memory.
 Json with_costs(const Json& report, const Json& options, const ExtractResult& result,

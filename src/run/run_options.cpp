@@ -20,7 +20,9 @@ std::string wanted_mode(const std::vector<std::string>& arguments) {
 
 void add_slice_options(CommandLine& line, ExtractOptions& options, int& planes) {
   line.group("Slices");
-  line.toggle("coarsen", options.coarsen, "work on a coarser surface where the mesh is finer than needed, and cut long edges where it is sparse");
+  line.toggle(
+      "coarsen", options.coarsen,
+      "work on a coarser surface where the mesh is finer than needed, and cut long edges where it is sparse");
   line.number("--coarse-vertices", options.coarsening.vertices, {4, 1e9},
               "what a finer mesh is coarsened to; arcs are still centred in the mesh itself");
   line.number("--limb-vertices", options.limb_vertices, {4, 1e9},

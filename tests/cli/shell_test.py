@@ -76,7 +76,7 @@ class Shell(ProgramTest):
         self.assertEqual(self.in_bash("a.off", "--for", "ne"), {"neurons"})
         self.assertEqual(self.in_bash("a.off", "--for", "=", "ne"), {"neurons"})
         self.assertEqual(self.in_bash("a.off", "--for", "="), self.in_bash("a.off", "--for", ""))
-        self.assertEqual(self.in_bash("a.off", "--smal"), {"--smallest"})
+        self.assertEqual(self.in_bash("a.off", "--smal"), {"--smallest", "--smallest-handle"})
         self.assertEqual(self.in_bash("a.off", "--threads", ""), set())
         self.assertEqual(self.in_bash("a.off", "--report", "me"), {"mesh.off"})
         self.assertEqual(self.in_bash("a.off", "--stages", ""), {"folder"})

@@ -15,6 +15,7 @@
 #include "mspskel/graph/make_curve_skeleton.h"
 #include "mspskel/graph/reach_digits.h"
 #include "mspskel/graph/space_nodes.h"
+#include "mspskel/graph/surface_map.h"
 #include "mspskel/graph/useless_pieces.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/mesh/component_solids.h"
@@ -463,10 +464,10 @@ inline ExtractResult extract_pieces(SurfaceSnapshot surface, const ExtractOption
                                      : extract_component(std::move(surface), nullptr, options);
 }
 
-// What was found on a surface whose first vertices are those of `input`, which it subdivides, as of the input.
-inline void restrict_to_input(SurfaceSnapshot input, const ExtractOptions& options, ExtractResult& result) {
-  std::vector<Index> own(input.position.size());
-  std::iota(own.begin(), own.end(), 0);
+// What was found on a surface that subdivides the input, as of the input, whose vertices have the numbers
+// `own` there.
+inline void restrict_to_input(SurfaceSnapshot input, const std::vector<Index>& own,
+                              const ExtractOptions& options, ExtractResult& result) {
   result.surface = std::move(input);
   result.solid.reset();
   result.initial_slices = carried_over(result.initial_slices, own);
@@ -476,6 +477,7 @@ inline void restrict_to_input(SurfaceSnapshot input, const ExtractOptions& optio
   result.cocycles = compute_volume_cocycles(result.surface, slice_candidates(result.slices), options.cocycles,
                                             options.execution.progress);
   result.skeleton.node_of_vertex = carried_over(result.skeleton.node_of_vertex, own, kNone);
+  make_patches_connected(result.surface, result.skeleton);
 }
 
 }  // namespace detail
@@ -483,13 +485,13 @@ inline void restrict_to_input(SurfaceSnapshot input, const ExtractOptions& optio
 MSPSKEL_INLINE ExtractResult extract_skeleton_of_snapshot(SurfaceSnapshot surface,
                                                           const ExtractOptions& options) {
   validate(options);
-  std::optional<SurfaceSnapshot> fine;
+  std::optional<SubdividedSurface> fine;
   if (options.coarsen && detail::may_be_subdivided(surface, options.subdivision))
     fine = subdivide_surface(surface, options.subdivision, options.execution);
   ExtractResult result;
-  if (fine && fine->vertex_count() > surface.vertex_count()) {
-    result = detail::extract_pieces(std::move(*fine), options);
-    detail::restrict_to_input(std::move(surface), options, result);
+  if (fine && fine->cuts > 0) {
+    result = detail::extract_pieces(std::move(fine->surface), options);
+    detail::restrict_to_input(std::move(surface), fine->vertex, options, result);
   } else {
     result = detail::extract_pieces(std::move(surface), options);
   }

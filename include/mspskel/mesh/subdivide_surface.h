@@ -1,6 +1,8 @@
-// The same surface with its long edges cut: what the stages walk on where the input is sparse, as surfaces from
-// CAD are.
+// The same surface with its long edges cut: what the stages walk on where the input is sparse, as surfaces
+// from CAD are.
 #pragma once
+
+#include <vector>
 
 #include "mspskel/base/progress.h"
 #include "mspskel/mesh/surface_snapshot.h"
@@ -18,15 +20,22 @@ struct SubdivisionOptions {
 // Throws UsageError naming the option that is out of range.
 void validate(const SubdivisionOptions& options);
 
+struct SubdividedSurface {
+  SurfaceSnapshot surface;  // in the frame of the input
+  std::vector<Index>
+      vertex;  // per input vertex its number there; kNone for isolated ones, which are left out
+  Index cuts = 0;
+};
+
 // Cuts edges in their middles, the longest first (bisection of edges: Rivara 1984, "Mesh refinement processes
 // based on the generalized bisection of simplices"), until none is too long or its component has as many
-// vertices as it may have. The surface as a set of points, its frame, and the numbers of its vertices stay;
-// added vertices come after them. Edges of one length go by number. Lengths rather than lengths for the local
-// thickness: with those thin limbs got vertices and blocks beside them none, and limbs were lost.
+// vertices as it may have. The surface as a set of points stays. The input's vertices come first, in their
+// order. Edges of one length go by number. Lengths rather than lengths for the local thickness: with those
+// thin limbs got vertices and blocks beside them none, and limbs were lost.
 //
 // O(edges of the result · log). Throws UsageError, Cancelled.
-SurfaceSnapshot subdivide_surface(const SurfaceSnapshot& surface, const SubdivisionOptions& options = {},
-                                  const Execution& execution = {});
+SubdividedSurface subdivide_surface(const SurfaceSnapshot& input, const SubdivisionOptions& options = {},
+                                    const Execution& execution = {});
 
 }  // namespace mspskel
 

@@ -21,8 +21,8 @@ inline constexpr double kLeastProtrusion = 3.5;
 class LimbCompletion {
  public:
   LimbCompletion(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
-                 std::vector<LimbTip>& tips, const LimbOptions& options,
-                 double step, InnerGraph& inner, const Execution& execution)
+                 std::vector<LimbTip>& tips, const LimbOptions& options, double step, InnerGraph& inner,
+                 const Execution& execution)
       : graph_(graph),
         surface_(surface),
         solid_(solid),
@@ -100,9 +100,8 @@ class LimbCompletion {
     for (Index v = 0; v < surface_.vertex_count(); ++v)
       if (outside_[v] > 0) beyond.push_back(v);
     const double least = std::max(kLeastProtrusion * options_.smallest, step_);
-    const std::vector<SlenderPart> parts =
-        slender_parts(surface_, outside_, std::move(beyond), uncovered_slenderness(options_),
-                      [&](Index) { return least; });
+    const std::vector<SlenderPart> parts = slender_parts(
+        surface_, outside_, std::move(beyond), uncovered_slenderness(options_), [&](Index) { return least; });
     const auto deepest =
         std::max_element(parts.begin(), parts.end(), [](const SlenderPart& a, const SlenderPart& b) {
           return a.depth != b.depth ? a.depth < b.depth : a.top > b.top;
@@ -234,13 +233,15 @@ class LimbCompletion {
 }  // namespace detail
 
 MSPSKEL_INLINE Index complete_limbs(ArcGraph& graph, const SurfaceSnapshot& surface,
-                                    const BoundingVolumeHierarchy& solid, std::vector<LimbTip>& tips, const LimbOptions& options, double step,
-                                    detail::InnerGraph& inner, const Execution& execution) {
+                                    const BoundingVolumeHierarchy& solid, std::vector<LimbTip>& tips,
+                                    const LimbOptions& options, double step, detail::InnerGraph& inner,
+                                    const Execution& execution) {
   return detail::LimbCompletion(graph, surface, solid, tips, options, step, inner, execution).run();
 }
 
 MSPSKEL_INLINE Index complete_limbs(ArcGraph& graph, const SurfaceSnapshot& surface,
-                                    const BoundingVolumeHierarchy& solid, std::vector<LimbTip>& tips, const LimbOptions& options, double step) {
+                                    const BoundingVolumeHierarchy& solid, std::vector<LimbTip>& tips,
+                                    const LimbOptions& options, double step) {
   detail::InnerGraph inner(surface, solid);
   return complete_limbs(graph, surface, solid, tips, options, step, inner);
 }

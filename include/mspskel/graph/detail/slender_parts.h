@@ -10,10 +10,10 @@ namespace mspskel {
 namespace detail {
 
 struct SlenderPart {
-  Index top;            // where it reaches farthest
-  double depth;         // of the top beyond the level
-  double slenderness;   // 2π depth² / area of what lies beyond the level: length over radius of a tube
-  double radius;        // of a tube with that area and depth
+  Index top;           // where it reaches farthest
+  double depth;        // of the top beyond the level
+  double slenderness;  // 2π depth² / area of what lies beyond the level: length over radius of a tube
+  double radius;       // of a tube with that area and depth
 };
 
 // The area of the triangles at v whose other corners lie less far, so that no triangle counts twice.

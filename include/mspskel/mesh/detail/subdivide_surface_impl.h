@@ -12,32 +12,40 @@ namespace detail {
 
 class EdgeBisection {
  public:
-  EdgeBisection(const SurfaceSnapshot& surface, const SubdivisionOptions& options)
-      : s_(surface), left_(static_cast<std::size_t>(surface.component_count)) {
-    const Index share = options.all_vertices / std::max<Index>(surface.component_count, 1);
+  EdgeBisection(const SurfaceSnapshot& input, const SubdivisionOptions& options)
+      : s_(result_.surface), left_(static_cast<std::size_t>(input.component_count)) {
+    s_.frame = input.frame;
+    s_.origin = input.origin;
+    s_.twin = input.twin;
+    result_.vertex.assign(input.position.size(), kNone);
+    const Index share = options.all_vertices / std::max<Index>(input.component_count, 1);
     std::fill(left_.begin(), left_.end(), std::min(options.vertices, share));
-    for (const Index c : s_.component)
-      if (c != kNone) --left_[c];
-    for (const double diagonal : component_diagonals(surface)) longest_.push_back(options.longest * diagonal);
+    for (Index v = 0; v < input.vertex_count(); ++v) {
+      if (input.vertex_halfedge[v] == kNone) continue;
+      result_.vertex[v] = s_.vertex_count();
+      s_.position.push_back(input.position[v]);
+      s_.component.push_back(input.component[v]);
+      --left_[input.component[v]];
+    }
+    for (Index& v : s_.origin) v = result_.vertex[v];
+    for (const double diagonal : component_diagonals(input)) longest_.push_back(options.longest * diagonal);
   }
 
-  SurfaceSnapshot run(const ProgressCallback& progress) {
+  SubdividedSurface run(const ProgressCallback& progress) {
     version_.assign(s_.origin.size(), 0);
     for (Index h = 0; h < s_.halfedge_count(); ++h)
       if (h < s_.twin[h]) offer(h);
-    const Index before = s_.vertex_count();
     while (!queue_.empty()) {
       const Offer best = queue_.top();
       queue_.pop();
       const Index h = best.halfedge;
       if (version_[h] != best.version || left_[s_.component[s_.origin[h]]] <= 0) continue;
-      if ((s_.vertex_count() - before) % 256 == 0) report_progress(progress, "subdivision", 0.0);
+      if (result_.cuts % 256 == 0) report_progress(progress, "subdivision", 0.0);
       cut(h);
+      ++result_.cuts;
     }
-    if (s_.vertex_count() == before) return std::move(s_);
-    s_.component_count = 0;
     complete_snapshot(s_);
-    return std::move(s_);
+    return std::move(result_);
   }
 
  private:
@@ -61,7 +69,8 @@ class EdgeBisection {
   }
 
   //        c                   c
-  //      /   \               / | \            The faces on both sides of a-b are cut in two from a vertex m in
+  //      /   \               / | \            The faces on both sides of a-b are cut in two from a vertex m
+  //      in
   //     a --- b    becomes  a--m--b           the middle.
   //      \   /               \ | /
   //        d                   d
@@ -96,7 +105,8 @@ class EdgeBisection {
     s_.twin[b] = a;
   }
 
-  SurfaceSnapshot s_;
+  SubdividedSurface result_;
+  SurfaceSnapshot& s_;           // the result's
   std::vector<Index> left_;      // per component: vertices that may be added
   std::vector<double> longest_;  // per component: edge that is not cut
   std::vector<Index> version_;   // per half-edge
@@ -112,11 +122,11 @@ MSPSKEL_INLINE void validate(const SubdivisionOptions& o) {
     throw UsageError("the longest edge of a subdivided surface must be from 0 to 1 of the diagonal");
 }
 
-MSPSKEL_INLINE SurfaceSnapshot subdivide_surface(const SurfaceSnapshot& surface,
-                                                 const SubdivisionOptions& options,
-                                                 const Execution& execution) {
+MSPSKEL_INLINE SubdividedSurface subdivide_surface(const SurfaceSnapshot& input,
+                                                   const SubdivisionOptions& options,
+                                                   const Execution& execution) {
   validate(options);
-  return detail::EdgeBisection(surface, options).run(execution.progress);
+  return detail::EdgeBisection(input, options).run(execution.progress);
 }
 
 }  // namespace mspskel
