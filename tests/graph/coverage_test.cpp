@@ -56,7 +56,7 @@ std::vector<UncoveredPart> uncovered(const SurfaceSnapshot& surface, const Curve
 }  // namespace
 
 TEST_CASE("Nothing is uncovered where every limb has its arc, and a limb that loses it is, at its tip") {
-  const DefaultMesh mesh = sample("octoped", 8000);
+  const DefaultMesh mesh = to_mesh(skin_graph(tripod(), 3000));
   const ExtractResult result = extract_skeleton(mesh);
   CHECK(uncovered(result.surface, result.skeleton).empty());
   Vector3 tip;
@@ -72,7 +72,7 @@ TEST_CASE("Nothing is uncovered where every limb has its arc, and a limb that lo
   CHECK(uncovered(other.surface, other.skeleton).empty());
 }
 
-TEST_CASE("Blocks, balls and plates have nothing that people would call a limb without an arc") {
+TEST_CASE("Blocks and balls and plates have nothing that people would call a limb without an arc") {
   for (const char* name : {"sphere", "prism", "plate", "cup"}) {
     const ExtractResult result = extract_skeleton(sample(name, 4000));
     CAPTURE(name);
@@ -81,7 +81,7 @@ TEST_CASE("Blocks, balls and plates have nothing that people would call a limb w
 }
 
 TEST_CASE("Depth below the least one is none") {
-  const ExtractResult result = extract_skeleton(sample("octoped", 8000));
+  const ExtractResult result = extract_skeleton(to_mesh(skin_graph(tripod(), 3000)));
   Vector3 tip;
   const CurveSkeleton rest = without_a_limb(result.skeleton, tip);
   CoverageOptions deep;
