@@ -5,6 +5,7 @@
 
 #include "mspskel/collapse/topology_certificate.h"
 #include "mspskel/extract_skeleton.h"
+#include "topology/certificate_of.h"
 #include "topology/voxel_solids.h"
 
 using namespace mspskel;
@@ -27,16 +28,6 @@ VoxelSolid foam(int n) {
   solid.box({-1, -1, 0}, {2 * n, 2 * n, 2 * n - 1});
   solid.remove(random_lattice(n, 0.8, random));
   return solid;
-}
-
-TopologyCertificate certificate_of(const ExtractResult& result) {
-  PolylineGraph graph;
-  for (const SkeletonNode& node : result.skeleton.nodes)
-    graph.position.push_back(result.surface.frame.to_normalised(node.position));
-  graph.edges = result.skeleton.edges;
-  graph.component = component_of_nodes(result.surface, static_cast<Index>(result.skeleton.nodes.size()),
-                                       result.skeleton.node_of_vertex);
-  return certify_topology(result.surface, result.cocycles, BoundingVolumeHierarchy(result.surface), graph);
 }
 
 void check_exact(const VoxelSolid& solid, Index least_genus) {

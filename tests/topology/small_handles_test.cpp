@@ -5,6 +5,7 @@
 #include "mspskel/collapse/crossing_labels.h"
 #include "mspskel/collapse/topology_certificate.h"
 #include "mspskel/extract_skeleton.h"
+#include "topology/certificate_of.h"
 #include "topology/voxel_solids.h"
 
 using namespace mspskel;
@@ -32,16 +33,6 @@ Vector3 cell(const SurfaceSnapshot& s, double x, double y) {
 
 std::vector<Vector3> round_the_frame(const SurfaceSnapshot& s, double left) {
   return {cell(s, left, 1), cell(s, 9, 1), cell(s, 9, 9), cell(s, left, 9), cell(s, left, 1)};
-}
-
-TopologyCertificate certificate_of(const ExtractResult& result) {
-  PolylineGraph graph;
-  for (const SkeletonNode& node : result.skeleton.nodes)
-    graph.position.push_back(result.surface.frame.to_normalised(node.position));
-  graph.edges = result.skeleton.edges;
-  graph.component = component_of_nodes(result.surface, static_cast<Index>(result.skeleton.nodes.size()),
-                                       result.skeleton.node_of_vertex);
-  return certify_topology(result.surface, result.cocycles, BoundingVolumeHierarchy(result.surface), graph);
 }
 
 Index genus_of(const SurfaceSnapshot& s) {
