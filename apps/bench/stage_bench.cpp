@@ -5,13 +5,13 @@
 
 #include "benchmarks.h"
 #include "models.h"
+#include "mspskel/arcs/collapsed_arcs.h"
 #include "mspskel/center/spatial_coherence.h"
 #include "mspskel/extract_skeleton.h"
-#include "mspskel/graph/collapsed_arcs.h"
-#include "mspskel/graph/find_digits.h"
-#include "mspskel/graph/limb_tips.h"
-#include "mspskel/graph/reach_digits.h"
+#include "mspskel/limbs/limb_tips.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
+#include "mspskel/refine/find_digits.h"
+#include "mspskel/refine/reach_digits.h"
 
 namespace mspskel::bench {
 namespace {

@@ -2,8 +2,8 @@
 // that the thesis compares with.
 #pragma once
 
-#include "mspskel/graph/curve_skeleton.h"
 #include "mspskel/mesh/surface_snapshot.h"
+#include "mspskel/skeleton/curve_skeleton.h"
 
 namespace mspskel::experiments {
 

@@ -4,10 +4,10 @@
 #include <numeric>
 
 #include "baseline.h"
+#include "mspskel/arcs/collapsed_arcs.h"
 #include "mspskel/base/stopwatch.h"
-#include "mspskel/graph/collapsed_arcs.h"
-#include "mspskel/graph/make_curve_skeleton.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
+#include "mspskel/skeleton/make_curve_skeleton.h"
 
 namespace mspskel::experiments {
 namespace {

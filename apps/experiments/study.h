@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mspskel/extract_skeleton.h"
-#include "mspskel/graph/check_skeleton.h"
+#include "mspskel/skeleton/check_skeleton.h"
 
 namespace mspskel::experiments {
 

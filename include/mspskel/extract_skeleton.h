@@ -7,22 +7,22 @@
 #include <utility>
 #include <vector>
 
+#include "mspskel/arcs/cycle_rank.h"
 #include "mspskel/base/progress.h"
 #include "mspskel/center/skeleton_mesh.h"
 #include "mspskel/center/spatial_coherence.h"
 #include "mspskel/collapse/coarse_labels.h"
 #include "mspskel/collapse/collapse_skeleton_mesh.h"
 #include "mspskel/collapse/volume_cocycles.h"
-#include "mspskel/graph/branch_filter.h"
-#include "mspskel/graph/curve_skeleton.h"
-#include "mspskel/graph/cycle_rank.h"
-#include "mspskel/graph/refine_arcs.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/mesh/coarsen_surface.h"
 #include "mspskel/mesh/subdivide_surface.h"
+#include "mspskel/refine/refine_arcs.h"
+#include "mspskel/skeleton/curve_skeleton.h"
 #include "mspskel/slice/cone_refinement.h"
 #include "mspskel/slice/plane_search.h"
 #include "mspskel/slice/slice_error.h"
+#include "mspskel/thesis/branch_filter.h"
 
 namespace mspskel {
 
@@ -108,5 +108,5 @@ ExtractResult extract_skeleton(const Mesh& mesh, const ExtractOptions& options) 
 }  // namespace mspskel
 
 #ifndef MSPSKEL_COMPILED
-#include "mspskel/detail/extract_skeleton_impl.h"
+#include "mspskel/pipeline/detail/extract_skeleton_impl.h"
 #endif

@@ -7,12 +7,12 @@
 
 #include "arrays.h"
 #include "bindings.h"
-#include "mspskel/graph/check_skeleton.h"
-#include "mspskel/graph/spanning_forest.h"
 #include "mspskel/io/atomic_file.h"
 #include "mspskel/io/read_skeleton.h"
 #include "mspskel/io/write_skeleton.h"
 #include "mspskel/samples/samples.h"
+#include "mspskel/skeleton/check_skeleton.h"
+#include "mspskel/skeleton/spanning_forest.h"
 
 namespace mspskel::python {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "mspskel/graph/spanning_forest.h"
+#include "mspskel/skeleton/spanning_forest.h"
 
 namespace mspskel::detail {
 

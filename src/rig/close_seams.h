@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "mspskel/graph/curve_skeleton.h"
 #include "mspskel/mesh/surface_snapshot.h"
+#include "mspskel/skeleton/curve_skeleton.h"
 #include "skeleton_tree.h"
 
 namespace mspskel::detail {

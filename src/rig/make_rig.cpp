@@ -6,7 +6,7 @@
 
 #include "close_seams.h"
 #include "mspskel/base/error.h"
-#include "mspskel/graph/check_surface_map.h"
+#include "mspskel/skeleton/check_surface_map.h"
 #include "name_joints.h"
 #include "skeleton_tree.h"
 

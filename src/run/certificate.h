@@ -3,8 +3,8 @@
 
 #include "command_line.h"
 #include "mspskel/collapse/topology_certificate.h"
-#include "mspskel/graph/curve_skeleton.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
+#include "mspskel/skeleton/curve_skeleton.h"
 
 namespace mspskel::cli {
 

@@ -1,7 +1,7 @@
 #include "checked_extraction.h"
 
 #include "mspskel/base/stopwatch.h"
-#include "mspskel/graph/end_at_openings.h"
+#include "mspskel/skeleton/end_at_openings.h"
 #include "verdict.h"
 
 namespace mspskel::cli {

@@ -7,7 +7,7 @@
 #include "certificate.h"
 #include "mesh_input.h"
 #include "mspskel/extract_skeleton.h"
-#include "mspskel/graph/coverage.h"
+#include "mspskel/limbs/coverage.h"
 #include "report.h"
 
 namespace mspskel::cli {

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "command_line.h"
-#include "mspskel/graph/curve_skeleton.h"
 #include "mspskel/mesh/build_mesh.h"
 #include "mspskel/repair/mend_soup.h"
 #include "mspskel/repair/unite_shells.h"
+#include "mspskel/skeleton/curve_skeleton.h"
 
 namespace mspskel::cli {
 

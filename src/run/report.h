@@ -6,8 +6,8 @@
 #include "command_line.h"
 #include "mspskel/collapse/topology_certificate.h"
 #include "mspskel/extract_skeleton.h"
-#include "mspskel/graph/check_skeleton.h"
-#include "mspskel/graph/coverage.h"
+#include "mspskel/limbs/coverage.h"
+#include "mspskel/skeleton/check_skeleton.h"
 
 namespace mspskel::cli {
 

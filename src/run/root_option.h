@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "command_line.h"
-#include "mspskel/graph/spanning_forest.h"
 #include "mspskel/repair/opening.h"
+#include "mspskel/skeleton/spanning_forest.h"
 
 namespace mspskel::cli {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "certificate.h"
-#include "mspskel/graph/coverage.h"
+#include "mspskel/limbs/coverage.h"
 
 namespace mspskel::cli {
 

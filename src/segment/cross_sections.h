@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "mspskel/graph/curve_skeleton.h"
+#include "mspskel/skeleton/curve_skeleton.h"
 
 namespace mspskel::detail {
 

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "mspskel/graph/curve_skeleton.h"
 #include "mspskel/segment/find_parts.h"
+#include "mspskel/skeleton/curve_skeleton.h"
 
 namespace mspskel::detail {
 

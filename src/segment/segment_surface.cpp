@@ -5,8 +5,8 @@
 #include <numeric>
 
 #include "mspskel/base/error.h"
-#include "mspskel/graph/check_surface_map.h"
 #include "mspskel/segment/smooth_borders.h"
+#include "mspskel/skeleton/check_surface_map.h"
 
 namespace mspskel {
 namespace {

@@ -1,11 +1,11 @@
 // Skeleton structure filtering: hairs go, limbs stay, near joints combine, and no loop is ever touched.
-#include "mspskel/graph/branch_filter.h"
+#include "mspskel/thesis/branch_filter.h"
 
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "mspskel/graph/collapsed_arcs.h"
-#include "mspskel/graph/make_curve_skeleton.h"
+#include "mspskel/arcs/collapsed_arcs.h"
+#include "mspskel/skeleton/make_curve_skeleton.h"
 
 using namespace mspskel;
 

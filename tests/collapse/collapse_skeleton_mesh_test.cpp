@@ -4,10 +4,10 @@
 #include <catch2/catch.hpp>
 #include <random>
 
+#include "mspskel/arcs/collapsed_arcs.h"
 #include "mspskel/collapse/volume_cocycles.h"
-#include "mspskel/graph/branch_filter.h"
-#include "mspskel/graph/collapsed_arcs.h"
-#include "mspskel/graph/make_curve_skeleton.h"
+#include "mspskel/skeleton/make_curve_skeleton.h"
+#include "mspskel/thesis/branch_filter.h"
 #include "support/meshes.h"
 #include "topology/voxel_solids.h"
 

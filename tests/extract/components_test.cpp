@@ -3,9 +3,9 @@
 
 #include "extract/unusual_meshes.h"
 #include "mspskel/extract_skeleton.h"
-#include "mspskel/graph/find_digits.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/mesh/component_solids.h"
+#include "mspskel/refine/find_digits.h"
 #include "mspskel/samples/samples.h"
 
 using namespace mspskel;

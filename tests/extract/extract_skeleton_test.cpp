@@ -5,10 +5,10 @@
 #include <map>
 #include <set>
 
-#include "mspskel/graph/check_skeleton.h"
-#include "mspskel/graph/surface_map.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/mesh/mesh_report.h"
+#include "mspskel/skeleton/check_skeleton.h"
+#include "mspskel/skeleton/surface_map.h"
 #include "support/meshes.h"
 
 using namespace mspskel;

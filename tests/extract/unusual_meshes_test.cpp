@@ -5,8 +5,8 @@
 #include <set>
 
 #include "mspskel/extract_skeleton.h"
-#include "mspskel/graph/surface_map.h"
 #include "mspskel/mesh/mesh_report.h"
+#include "mspskel/skeleton/surface_map.h"
 
 using namespace mspskel;
 using namespace mspskel::test;

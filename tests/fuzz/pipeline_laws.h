@@ -10,9 +10,9 @@
 #include "fuzz/fuzzed_meshes.h"
 #include "fuzz/fuzzed_options.h"
 #include "mspskel/collapse/topology_certificate.h"
-#include "mspskel/graph/surface_map.h"
 #include "mspskel/mesh/build_mesh.h"
 #include "mspskel/mesh/mesh_report.h"
+#include "mspskel/skeleton/surface_map.h"
 
 namespace mspskel::fuzz {
 

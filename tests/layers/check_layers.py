@@ -7,14 +7,15 @@ import pathlib
 import re
 import sys
 
-LAYERS = ["base", "mesh", "repair", "slice", "center", "collapse", "graph", "segment", "rig", "io", "samples", "render", "view"]
-TOP = len(LAYERS)  # headers directly in include/mspskel, and their detail, see every folder
+LAYERS = ["base", "mesh", "repair", "slice", "center", "collapse", "skeleton", "solid", "limbs", "arcs", "refine",
+          "thesis", "segment", "rig", "io", "samples", "render", "view"]
+TOP = len(LAYERS)  # headers directly in include/mspskel, and the pipeline, see every folder
 
 
 def layer(path):
     """The place in LAYERS of 'mspskel/<folder>/...'; None for a folder that the list does not know."""
     parts = path.split("/")
-    if len(parts) == 2 or parts[1] == "detail":
+    if len(parts) == 2 or parts[1] == "pipeline":
         return TOP
     return LAYERS.index(parts[1]) if parts[1] in LAYERS else None
 

@@ -3,9 +3,9 @@
 #include <catch2/catch.hpp>
 #include <cstdlib>
 
+#include "mspskel/arcs/merge_joints.h"
 #include "mspskel/collapse/detail/homology_generators.h"
 #include "mspskel/extract_skeleton.h"
-#include "mspskel/graph/merge_joints.h"
 #include "support/random_solid.h"
 #include "topology/voxel_solids.h"
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
-#include "mspskel/graph/curve_skeleton.h"
 #include "mspskel/io/write_skeleton.h"
+#include "mspskel/skeleton/curve_skeleton.h"
 
 namespace mspskel {
 

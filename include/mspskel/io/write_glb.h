@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "mspskel/graph/curve_skeleton.h"
 #include "mspskel/mesh/polygon_soup.h"
 #include "mspskel/rig/rig.h"
+#include "mspskel/skeleton/curve_skeleton.h"
 
 namespace mspskel {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "mspskel/graph/curve_skeleton.h"
-#include "mspskel/graph/spanning_forest.h"
+#include "mspskel/skeleton/curve_skeleton.h"
+#include "mspskel/skeleton/spanning_forest.h"
 
 namespace mspskel {
 

@@ -6,10 +6,10 @@
 
 #include "mspskel/base/progress.h"
 #include "mspskel/base/types.h"
-#include "mspskel/graph/curve_skeleton.h"
 #include "mspskel/mesh/polygon_soup.h"
 #include "mspskel/mesh/surface_snapshot.h"
 #include "mspskel/render/image.h"
+#include "mspskel/skeleton/curve_skeleton.h"
 
 namespace mspskel {
 

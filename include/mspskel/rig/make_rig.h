@@ -1,9 +1,9 @@
 // A rig from a skeleton and its surface map.
 #pragma once
 
-#include "mspskel/graph/curve_skeleton.h"
 #include "mspskel/mesh/surface_snapshot.h"
 #include "mspskel/rig/rig.h"
+#include "mspskel/skeleton/curve_skeleton.h"
 
 namespace mspskel {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "mspskel/graph/curve_skeleton.h"
+#include "mspskel/skeleton/curve_skeleton.h"
 
 namespace mspskel {
 

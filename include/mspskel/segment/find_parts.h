@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "mspskel/graph/curve_skeleton.h"
+#include "mspskel/skeleton/curve_skeleton.h"
 
 namespace mspskel {
 

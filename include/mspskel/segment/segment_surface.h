@@ -3,11 +3,11 @@
 
 #include <vector>
 
-#include "mspskel/graph/curve_skeleton.h"
 #include "mspskel/mesh/surface_snapshot.h"
 #include "mspskel/segment/border_costs.h"
 #include "mspskel/segment/find_parts.h"
 #include "mspskel/segment/split_at_creases.h"
+#include "mspskel/skeleton/curve_skeleton.h"
 
 namespace mspskel {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "mspskel/base/types.h"
-#include "mspskel/graph/curve_skeleton.h"
 #include "mspskel/mesh/polygon_soup.h"
+#include "mspskel/skeleton/curve_skeleton.h"
 
 namespace mspskel {
 

@@ -1,0 +1,224 @@
+#pragma once
+
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "mspskel/arcs/detail/arc_points.h"
+#include "mspskel/base/even_directions.h"
+#include "mspskel/base/linkage.h"
+
+namespace mspskel {
+namespace detail {
+
+// The unit vector across a unit tangent that points most nearly to the nearest surface point.
+inline Vector3 direction_to_surface(const BoundingVolumeHierarchy& solid, const Vector3& x,
+                                    const Vector3& tangent) {
+  Vector3 u = solid.closest(x).point - x;
+  u -= u.dot(tangent) * tangent;
+  return u.norm() < 1e-12 ? tangent.unitOrthogonal() : u.normalized();
+}
+
+// Unit tangents of inner points and leaf ends from a smoothed copy of the chains; zero elsewhere. Without the
+// smoothing the sections of a zigzag tilt with it, and centring makes it worse.
+inline std::vector<Vector3> smooth_tangents(const ArcPoints& points, int smoothing) {
+  std::vector<Vector3> tangent(points.x.size(), Vector3::Zero());
+  std::vector<Vector3> line, copy;
+  for (const auto& chain : points.chains) {
+    line.clear();
+    for (const Index i : chain) line.push_back(points.x[i]);
+    for (int round = 0; round < smoothing; ++round) {
+      copy = line;
+      for (std::size_t i = 1; i + 1 < line.size(); ++i)
+        line[i] = 0.5 * copy[i] + 0.25 * (copy[i - 1] + copy[i + 1]);
+    }
+    for (std::size_t i = 0; i < chain.size(); ++i) {
+      if (points.kind[chain[i]] == ArcPoints::Kind::kJoint) continue;
+      const Vector3 along = line[std::min(i + 1, line.size() - 1)] - line[i > 0 ? i - 1 : 0];
+      if (along.norm() > 0) tangent[chain[i]] = along.normalized();
+    }
+  }
+  return tangent;
+}
+
+// For every tangent a unit vector across it where the section's first ray goes. Along a chain it turns as
+// little as the tangents let it; it begins towards the nearest surface, so all rays turn with the model.
+inline std::vector<Vector3> first_rays(const ArcPoints& points, const std::vector<Vector3>& tangent,
+                                       const BoundingVolumeHierarchy& solid) {
+  std::vector<Vector3> ray(points.x.size(), Vector3::Zero());
+  for (const auto& chain : points.chains) {
+    Vector3 last = Vector3::Zero();
+    for (const Index i : chain) {
+      if (tangent[i].isZero()) continue;
+      last -= last.dot(tangent[i]) * tangent[i];
+      if (last.norm() < 0.1) last = direction_to_surface(solid, points.x[i], tangent[i]);
+      last.normalize();
+      ray[i] = last;
+    }
+  }
+  return ray;
+}
+
+struct Pull {
+  Vector3 goal = Vector3::Zero();
+  double weight = 0.0;
+  double stiffness = 1.0;
+};
+
+// Inner points between two others of their chain whose sections a round leaves out, every second one; they
+// take turns, so that all are seen.
+inline std::vector<std::uint8_t> left_out(const ArcPoints& points, int round) {
+  std::vector<std::uint8_t> out(points.x.size(), 0);
+  for (const auto& chain : points.chains)
+    for (std::size_t i = 2 + static_cast<std::size_t>(round % 2); i + 2 < chain.size(); i += 2)
+      out[chain[i]] = 1;
+  return out;
+}
+
+// The pull of a point without a section of its own: the mean of its neighbours'.
+inline Pull pull_between(const ArcPoints& points, const std::vector<Pull>& pulls, Index i) {
+  const Index a = points.next[i][0], b = points.next[i][1];
+  const Vector3 move = 0.5 * (pulls[a].goal - points.x[a] + pulls[b].goal - points.x[b]);
+  return {points.x[i] + move, 0.5 * (pulls[a].weight + pulls[b].weight),
+          0.5 * (pulls[a].stiffness + pulls[b].stiffness)};
+}
+
+inline Pull section_pull(const BoundingVolumeHierarchy& solid, const Vector3& x, const Vector3& tangent,
+                         const Vector3& start, const CenteringOptions& options) {
+  const VisibleSection section = visible_section(solid, x, tangent, start, options.rays);
+  if (!section.closed || section.radius <= 0) return {x, 1e-3, 1.0};
+  const double move = (section.centre - x).norm() / (0.7 * section.radius);
+  // A second difference grows with the square of the step; the reference makes the curve independent of it.
+  constexpr double kReferenceStep = 0.008;
+  const double thickness = section.clearance * kReferenceStep / (options.step * options.step);
+  return {section.centre, section.roundness * section.roundness / (1 + std::pow(move, 4)),
+          thickness * thickness};
+}
+
+template <class Ordering>
+std::optional<Eigen::MatrixX3d> solved_by(const Eigen::SparseMatrix<double>& matrix,
+                                          const Eigen::MatrixX3d& right) {
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Ordering> solver(matrix);
+  if (solver.info() != Eigen::Success) return std::nullopt;
+  return Eigen::MatrixX3d(solver.solve(right));
+}
+
+// Minimises Σ w|x − goal|² + Σ μ|x − mean of neighbours|² with μ = smoothness · stiffness.
+inline std::vector<Vector3> solve_positions(const ArcPoints& points, const std::vector<Pull>& pulls,
+                                            double smoothness) {
+  using Triplet = Eigen::Triplet<double>;
+  const Index n = points.count();
+  // The chains' points come first and the joints last, so elimination along the chains fills in next to
+  // nothing and needs no ordering of its own.
+  const auto row = [n](Index i) { return n - 1 - i; };
+  std::vector<Triplet> entries;
+  Eigen::MatrixX3d right(n, 3);
+  for (Index i = 0; i < n; ++i) {
+    const double w = std::max(pulls[i].weight, 1e-9);
+    entries.emplace_back(row(i), row(i), w);
+    right.row(row(i)) = w * pulls[i].goal.transpose();
+    const auto& next = points.next[i];
+    if (next.size() < 2) continue;
+    const double mu =
+        smoothness * pulls[i].stiffness * (points.kind[i] == ArcPoints::Kind::kInner ? 1.0 : 0.3);
+    // Row r = e_i − Σ e_j / k; its outer product enters the matrix.
+    const double k = static_cast<double>(next.size());
+    entries.emplace_back(row(i), row(i), mu);
+    for (const Index a : next) {
+      entries.emplace_back(row(i), row(a), -mu / k);
+      entries.emplace_back(row(a), row(i), -mu / k);
+      for (const Index b : next) entries.emplace_back(row(a), row(b), mu / (k * k));
+    }
+  }
+  Eigen::SparseMatrix<double> matrix(n, n);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  constexpr Index kFewJoints = 128;  // among more than that, elimination fills in
+  const auto joints = std::count(points.kind.begin(), points.kind.end(), ArcPoints::Kind::kJoint);
+  const std::optional<Eigen::MatrixX3d> solved = joints <= kFewJoints
+                                                     ? solved_by<Eigen::NaturalOrdering<int>>(matrix, right)
+                                                     : solved_by<Eigen::AMDOrdering<int>>(matrix, right);
+  if (!solved) return points.x;
+  const Eigen::MatrixX3d& solution = *solved;
+  std::vector<Vector3> x(points.x.size());
+  for (Index i = 0; i < n; ++i) x[i] = solution.row(row(i)).transpose();
+  return x;
+}
+
+}  // namespace detail
+
+MSPSKEL_INLINE VisibleSection visible_section(const BoundingVolumeHierarchy& solid, const Vector3& x,
+                                              const Vector3& tangent, int rays) {
+  return visible_section(solid, x, tangent, detail::direction_to_surface(solid, x, tangent), rays);
+}
+
+MSPSKEL_INLINE VisibleSection visible_section(const BoundingVolumeHierarchy& solid, const Vector3& x,
+                                              const Vector3& tangent, const Vector3& u, int rays) {
+  const Vector3 w = tangent.cross(u);
+  std::array<double, 256> r;
+  solid.ray_fan(x, u, w, rays, r.data());
+  VisibleSection section;
+  section.clearance = *std::min_element(r.begin(), r.begin() + rays);
+  double area = 0, perimeter = 0, sum_u = 0, sum_w = 0;
+  detail::RegionMoments moments;
+  const std::vector<Vector2>& direction = even_directions(rays);
+  const double cos_turn = direction[1].x(), sin_turn = direction[1].y();
+  double at_u = r[rays - 1] * cos_turn, at_w = -r[rays - 1] * sin_turn;
+  for (int i = 0; i < rays; ++i) {
+    if (!std::isfinite(r[i])) return section;
+    const double s = r[i + 1 < rays ? i + 1 : 0];
+    const double next_u = r[i] * direction[i].x(), next_w = r[i] * direction[i].y();
+    moments.add(at_u, at_w, next_u, next_w);
+    at_u = next_u;
+    at_w = next_w;
+    sum_u += next_u;
+    sum_w += next_w;
+    area += 0.5 * r[i] * s * sin_turn;
+    perimeter += std::sqrt(std::max(0.0, r[i] * r[i] + s * s - 2 * r[i] * s * cos_turn));
+  }
+  section.closed = true;
+  section.centre = x + 2.0 / rays * (sum_u * u + sum_w * w);
+  section.radius = std::sqrt(area / kPi);
+  section.half_width = moments.half_width();
+  section.roundness = perimeter > 0 ? 4 * kPi * area / (perimeter * perimeter) : 0.0;
+  return section;
+}
+
+MSPSKEL_INLINE void center_arcs(ArcGraph& graph, const BoundingVolumeHierarchy& solid,
+                                const CenteringOptions& options, const Execution& execution,
+                                const CrossingLabels& crossings) {
+  validate(options);
+  const auto resample = [&] {
+    for (Arc& arc : graph.arcs)
+      if (arc.alive) arc.points = detail::resampled_inside(arc, options.step, solid, crossings);
+  };
+  resample();
+  for (int round = 0; round < options.rounds; ++round) {
+    if (round > 0) resample();
+    detail::ArcPoints points(graph);
+    const auto tangent = detail::smooth_tangents(points, options.tangent_smoothing);
+    const auto first_ray = detail::first_rays(points, tangent, solid);
+    const auto left_out = detail::left_out(points, round);
+    std::vector<detail::Pull> pulls(points.x.size());
+    parallel_for(
+        points.count(), "arcs", execution, [] { return 0; },
+        [&](Index i, int) {
+          using Kind = detail::ArcPoints::Kind;
+          pulls[i] = {points.x[i], 1e-3, 1.0};
+          if (points.kind[i] == Kind::kDead || points.kind[i] == Kind::kJoint || left_out[i]) return;
+          if (!tangent[i].isZero())
+            pulls[i] = detail::section_pull(solid, points.x[i], tangent[i], first_ray[i], options);
+          if (points.kind[i] == Kind::kLeaf) pulls[i].weight = 0.5;
+        });
+    for (Index i = 0; i < points.count(); ++i)
+      if (left_out[i]) pulls[i] = detail::pull_between(points, pulls, i);
+    const auto solution = detail::solve_positions(points, pulls, options.smoothness);
+    std::vector<Vector3> goal(points.x);
+    for (Index i = 0; i < points.count(); ++i)
+      if (solution[i].allFinite()) goal[i] += options.damping * (solution[i] - points.x[i]);
+    detail::move_inside(points, solid, goal, crossings);
+    points.write_back(graph);
+  }
+}
+
+}  // namespace mspskel

@@ -1,0 +1,31 @@
+// Arcs in the walls of shells, where no section tells one way from another: the shortest one, in the middle
+// of the wall.
+#pragma once
+
+#include <vector>
+
+#include "mspskel/arcs/arc_graph.h"
+#include "mspskel/collapse/crossing_labels.h"
+#include "mspskel/mesh/bounding_volume_hierarchy.h"
+#include "mspskel/mesh/surface_snapshot.h"
+#include "mspskel/solid/detail/inner_graph.h"
+
+namespace mspskel {
+
+// Draws the arcs of shells tight between the ends of their tubes, so that a mug's loop runs straight down the
+// wall from one end of its handle to the other: rounds of the heat flow along the line, each followed by a
+// move to the middle of the wall's chord. Points in tubes, hubs of other arcs, and loops without a tube stay.
+// Where the shortest way of its class through the middle of the wall is another one, it takes that.
+// A shell with loops and no leaf gets an arc from the end of a tube to the middle of its floor, which is
+// where the axis of its opening runs inside; the shortest of these arcs. A point moves only as far as its
+// edges stay off the surface. Returns the number of arcs drawn. Cost: a section a point, and a closest point
+// and a ray a point and round; a path through the solid an end of a tube.
+Index tighten_in_walls(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
+                       const std::vector<bool>& shells, detail::InnerGraph& inner, double step,
+                       const CrossingLabels& crossings = {});
+
+}  // namespace mspskel
+
+#ifndef MSPSKEL_COMPILED
+#include "mspskel/arcs/detail/tighten_walls_impl.h"
+#endif

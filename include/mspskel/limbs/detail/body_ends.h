@@ -1,0 +1,119 @@
+// Where the bodies of components end that no limb ends: the foot and the mouth of a vase, the ends of a
+// hammer's head.
+#pragma once
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "mspskel/limbs/detail/limb_search.h"
+
+namespace mspskel {
+namespace detail {
+
+// What is left of each component without its limbs. A body that is longer than wide ends twice along its
+// principal axis; one with a single limb that is not ends opposite to that limb. A limb that
+// leaves the body near such an end, or has the end on its surface, stands for it.
+class BodyEnds {
+ public:
+  BodyEnds(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
+           const std::vector<FoundLimb>& limbs)
+      : surface_(surface),
+        solid_(solid),
+        limbs_(limbs),
+        body_(static_cast<std::size_t>(surface.component_count)),
+        in_limb_(surface.position.size(), 0) {
+    for (const FoundLimb& limb : limbs) {
+      if (limb.tip.kind == TipKind::kLimb) ++body_[surface.component[limb.tip.vertex]].limbs;
+      for (const Index v : limb.part) in_limb_[v] = 1;
+    }
+    for (Index v = 0; v < surface.vertex_count(); ++v) {
+      if (in_limb_[v] || surface.vertex_halfedge[v] == kNone) continue;
+      const Vector3& x = surface.position[v];
+      Body& body = body_[surface.component[v]];
+      body.area += surface.vertex_area[v];
+      body.centre += surface.vertex_area[v] * x;
+      body.second += surface.vertex_area[v] * x * x.transpose();
+    }
+    for (Body& body : body_)
+      if (body.area > 0) body.centre /= body.area;
+  }
+
+  Index limb_count(Index component) const { return body_[component].limbs; }
+
+  // The ends of one component's body that no limb stands for.
+  std::vector<LimbTip> run(Index component) const {
+    const Body& body = body_[component];
+    std::vector<LimbTip> ends;
+    if (!(body.area > 0) || !solid_.inside(body.centre)) return ends;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(body.second / body.area -
+                                                                body.centre * body.centre.transpose());
+    const Vector3 moment = solver.eigenvalues();  // ascending
+    if (moment[2] >= kLonger * kLonger * moment[1])
+      for (const double sign : {-1.0, 1.0}) add_end(component, sign * solver.eigenvectors().col(2), ends);
+    if (body.limbs != 1 || !ends.empty()) return ends;
+    for (const FoundLimb& limb : limbs_)
+      if (limb.tip.kind == TipKind::kLimb && surface_.component[limb.tip.vertex] == component)
+        add_end(component, (body.centre - limb.root).normalized(), ends);
+    return ends;
+  }
+
+ private:
+  struct Body {
+    Index limbs = 0;
+    double area = 0;
+    Vector3 centre = Vector3::Zero();
+    Eigen::Matrix3d second = Eigen::Matrix3d::Zero();  // ∫ x xᵀ
+  };
+
+  static constexpr double kLonger = 1.4;  // length over width
+
+  void add_end(Index component, const Vector3& direction, std::vector<LimbTip>& ends) const {
+    constexpr double kNear = 0.4;   // of the way to the end: a limb that leaves beyond it stands for the end
+    constexpr double kAhead = 0.1;  // radii of the ball in the middle before the surface
+    const Vector3& centre = body_[component].centre;
+    const auto hit = solid_.first_hit(centre, direction);
+    const double radius = solid_.distance(centre);
+    if (!hit || hit->distance < kLonger * radius) return;
+    for (const FoundLimb& limb : limbs_)
+      if (surface_.component[limb.tip.vertex] == component &&
+          (limb.root - centre).dot(direction) > kNear * hit->distance)
+        return;
+    LimbTip tip;
+    tip.kind = TipKind::kBodyEnd;
+    const Vector3 end = centre + hit->distance * direction;
+    tip.target = end - kAhead * radius * direction;
+    tip.vertex = nearest_vertex(component, end);
+    if (in_limb_[tip.vertex]) return;
+    tip.measures.depth = hit->distance;
+    tip.measures.half_width = 0.25 * radius;
+    for (Index v = 0; v < surface_.vertex_count(); ++v)
+      if (is_of(component, v) &&
+          (surface_.position[v] - surface_.position[tip.vertex]).norm() <= 0.5 * radius)
+        tip.cap.push_back(v);
+    ends.push_back(std::move(tip));
+  }
+
+  bool is_of(Index component, Index v) const {
+    return surface_.component[v] == component && surface_.vertex_halfedge[v] != kNone;
+  }
+
+  Index nearest_vertex(Index component, const Vector3& x) const {
+    Index best = kNone;
+    for (Index v = 0; v < surface_.vertex_count(); ++v)
+      if (is_of(component, v) && (best == kNone || (surface_.position[v] - x).squaredNorm() <
+                                                       (surface_.position[best] - x).squaredNorm()))
+        best = v;
+    return best;
+  }
+
+  const SurfaceSnapshot& surface_;
+  const BoundingVolumeHierarchy& solid_;
+  const std::vector<FoundLimb>& limbs_;
+  std::vector<Body> body_;             // per component
+  std::vector<std::uint8_t> in_limb_;  // per vertex
+};
+
+}  // namespace detail
+}  // namespace mspskel

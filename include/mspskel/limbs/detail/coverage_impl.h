@@ -1,0 +1,58 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "mspskel/base/linkage.h"
+#include "mspskel/limbs/detail/slender_parts.h"
+#include "mspskel/mesh/detail/component_diagonals.h"
+#include "mspskel/solid/detail/ball_tree.h"
+
+namespace mspskel {
+namespace detail {
+
+inline BallTree balls_of_nodes(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
+                               const CurveSkeleton& skeleton, const Execution& execution) {
+  std::vector<Ball> balls;
+  for (const SkeletonNode& node : skeleton.nodes)
+    balls.push_back({surface.frame.to_normalised(node.position), 0.0});
+  parallel_for(
+      static_cast<Index>(balls.size()), "coverage", execution, [] { return 0; },
+      [&](Index i, int) {
+        if (solid.inside(balls[i].centre)) balls[i].radius = solid.distance(balls[i].centre);
+      });
+  return BallTree(std::move(balls));
+}
+
+}  // namespace detail
+
+MSPSKEL_INLINE std::vector<UncoveredPart> find_uncovered_parts(const SurfaceSnapshot& surface,
+                                                               const BoundingVolumeHierarchy& solid,
+                                                               const CurveSkeleton& skeleton,
+                                                               const CoverageOptions& options,
+                                                               const Execution& execution) {
+  const detail::BallTree balls = detail::balls_of_nodes(surface, solid, skeleton, execution);
+  std::vector<double> outside(surface.position.size(), 0.0);
+  parallel_for(
+      surface.vertex_count(), "coverage", execution, [] { return 0; },
+      [&](Index v, int) {
+        if (surface.vertex_halfedge[v] != kNone) outside[v] = balls.distance_outside(surface.position[v]);
+      });
+
+  std::vector<Index> beyond;
+  for (Index v = 0; v < surface.vertex_count(); ++v)
+    if (outside[v] > 0) beyond.push_back(v);
+  const std::vector<double> diagonal = detail::component_diagonals(surface);
+  std::vector<UncoveredPart> found;
+  for (const detail::SlenderPart& part :
+       detail::slender_parts(surface, outside, std::move(beyond), 2 * kMissedWidths,
+                             [&](Index v) { return options.smallest * diagonal[surface.component[v]]; }))
+    found.push_back({part.top, surface.frame.to_model(surface.position[part.top]),
+                     surface.frame.scale * part.depth, 0.5 * part.slenderness});
+  std::sort(found.begin(), found.end(), [](const UncoveredPart& a, const UncoveredPart& b) {
+    return a.widths != b.widths ? a.widths > b.widths : a.vertex < b.vertex;
+  });
+  return found;
+}
+
+}  // namespace mspskel

@@ -1,0 +1,214 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "mspskel/base/linkage.h"
+#include "mspskel/base/value_at_rank.h"
+#include "mspskel/limbs/detail/body_ends.h"
+#include "mspskel/limbs/detail/limb_search.h"
+#include "mspskel/mesh/inner_distance.h"
+
+namespace mspskel {
+
+MSPSKEL_INLINE std::vector<bool> components_with_limbs(const SurfaceSnapshot& surface,
+                                                       const std::vector<LimbTip>& tips) {
+  std::vector<bool> limbed(static_cast<std::size_t>(surface.component_count), false);
+  for (const LimbTip& tip : tips)
+    if (tip.kind == TipKind::kLimb || tip.kind == TipKind::kEar) limbed[surface.component[tip.vertex]] = true;
+  return limbed;
+}
+
+namespace detail {
+
+// The vertex of the greatest finite value in each component; kNone where there is none.
+template <class Value>
+std::vector<Index> greatest_of_components(const SurfaceSnapshot& surface, Value value) {
+  std::vector<Index> greatest(static_cast<std::size_t>(surface.component_count), kNone);
+  std::vector<double> most(greatest.size(), -std::numeric_limits<double>::infinity());
+  for (Index v = 0; v < surface.vertex_count(); ++v) {
+    if (surface.vertex_halfedge[v] == kNone) continue;
+    const Index c = surface.component[v];
+    const double x = value(v);
+    if (!(std::isfinite(x) && x > most[c])) continue;
+    most[c] = x;
+    greatest[c] = v;
+  }
+  return greatest;
+}
+
+// Distances along the surface from one vertex of each component; infinity where that is kNone.
+inline std::vector<double> surface_distances(const SurfaceSnapshot& surface, const SurfaceWays& ways,
+                                             const std::vector<Index>& from) {
+  std::vector<double> distance(surface.position.size(), std::numeric_limits<double>::infinity());
+  for (const Index v : from)
+    if (v != kNone) distance[v] = 0;
+  ways.extend(std::vector<std::uint8_t>(distance.size(), 0), distance);
+  return distance;
+}
+
+// A component without limbs or handles keeps its longest way: the two ends of it count as tips, without a
+// depth. Where it has a handle, that is its skeleton.
+inline void add_longest_ways(const SurfaceSnapshot& surface, const SurfaceWays& ways,
+                             const std::vector<double>& distance, std::vector<LimbTip>& tips) {
+  constexpr double kCap = 0.85;  // of the way
+  std::vector<Index> from = greatest_of_components(surface, [&](Index v) { return distance[v]; });
+  for (const LimbTip& tip : tips) from[surface.component[tip.vertex]] = kNone;
+  const std::vector<Index> twice_euler = twice_euler_characteristics(surface);
+  for (std::size_t c = 0; c < from.size(); ++c)
+    if (twice_euler[c] != 4) from[c] = kNone;
+  if (std::all_of(from.begin(), from.end(), [](Index v) { return v == kNone; })) return;
+  const std::vector<double> way = surface_distances(surface, ways, from);
+  const std::vector<Index> to = greatest_of_components(surface, [&](Index v) { return way[v]; });
+  const std::vector<double> back = surface_distances(surface, ways, to);
+  const auto add = [&](Index c, Index end, const std::vector<double>& along) {
+    LimbTip tip;
+    tip.kind = TipKind::kWayEnd;
+    tip.vertex = end;
+    for (Index v = 0; v < surface.vertex_count(); ++v)
+      if (surface.component[v] == c && along[v] > kCap * along[end]) tip.cap.push_back(v);
+    tips.push_back(std::move(tip));
+  };
+  for (Index c = 0; c < surface.component_count; ++c) {
+    if (from[c] == kNone) continue;
+    add(c, from[c], back);
+    add(c, to[c], way);
+  }
+}
+
+// A point in the solid near the middle of each component: the mean centre of the slices whose vertices'
+// greatest distance along the surface to four far vertices is nearly the least; of the least alone where that
+// lies outside.
+inline std::vector<std::optional<Vector3>> middle_of_components(const SurfaceSnapshot& surface,
+                                                                const SurfaceWays& ways,
+                                                                const BoundingVolumeHierarchy& solid,
+                                                                const VertexSlices& slices) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  constexpr int kFar = 4;
+  constexpr double kNear = 0.1;  // farther than the least by this share counts no more
+  const auto count = static_cast<std::size_t>(surface.component_count);
+  const std::size_t n = surface.position.size();
+  std::vector<Vector3> centroid(count, Vector3::Zero());
+  std::vector<double> area(count, 0.0);
+  for (std::size_t v = 0; v < n; ++v) {
+    if (surface.vertex_halfedge[v] == kNone) continue;
+    centroid[surface.component[v]] += surface.vertex_area[v] * surface.position[v];
+    area[surface.component[v]] += surface.vertex_area[v];
+  }
+  std::vector<Index> from = greatest_of_components(surface, [&](Index v) {
+    const Index c = surface.component[v];
+    return (area[c] * surface.position[v] - centroid[c]).squaredNorm();
+  });
+  std::vector<double> nearest(n, kInfinity), farthest(n, 0.0);
+  for (int k = 0; k < kFar; ++k) {
+    const std::vector<double> distance = surface_distances(surface, ways, from);
+    for (std::size_t v = 0; v < n; ++v) {
+      nearest[v] = std::min(nearest[v], distance[v]);
+      farthest[v] = std::max(farthest[v], distance[v]);
+    }
+    from = greatest_of_components(surface, [&](Index v) { return nearest[v]; });
+  }
+  const std::vector<Index> least =
+      greatest_of_components(surface, [&](Index v) { return slices.valid[v] ? -farthest[v] : -kInfinity; });
+  std::vector<std::optional<Vector3>> middle(count);
+  for (std::size_t c = 0; c < count; ++c) {
+    const Index v = least[c];
+    if (v == kNone) continue;
+    // One vertex's slice would make the middle jump where several are as good.
+    Vector3 mean = Vector3::Zero();
+    double weight = 0;
+    for (std::size_t w = 0; w < n; ++w) {
+      if (!slices.valid[w] || surface.component[w] != surface.component[v]) continue;
+      const double share = surface.vertex_area[w] * (1 - (farthest[w] / farthest[v] - 1) / kNear);
+      if (!(share > 0)) continue;
+      mean += share * slices.centre[w];
+      weight += share;
+    }
+    const Vector3 inward = -surface.normal[v];
+    const Vector3 start = surface.position[v] + 1e-6 * inward;
+    if (weight > 0 && solid.inside(mean / weight))
+      middle[c] = mean / weight;
+    else if (solid.inside(slices.centre[v]))
+      middle[c] = slices.centre[v];
+    else if (const auto hit = solid.first_hit(start, inward))
+      middle[c] = start + 0.5 * hit->distance * inward;
+  }
+  return middle;
+}
+
+}  // namespace detail
+
+MSPSKEL_INLINE void drop_tips_in_walls(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
+                                       const std::vector<bool>& shells, std::vector<LimbTip>& tips) {
+  constexpr double kThin = 0.45;
+  const auto in_wall = [&](const LimbTip& tip) {
+    if (!shells[surface.component[tip.vertex]]) return false;
+    std::vector<double> chords;
+    for (const Index v : tip.cap) chords.push_back(detail::half_chord(surface, solid, v));
+    return detail::value_at_rank(std::move(chords), 0.5) < kThin * tip.measures.half_width;
+  };
+  tips.erase(std::remove_if(tips.begin(), tips.end(), in_wall), tips.end());
+}
+
+namespace detail {
+
+// Adds the ends of the bodies that have limbs or handles. Ears of components with neither limbs nor such ends
+// go: on a plain body they are corners.
+inline void add_body_ends(const SurfaceSnapshot& surface, const std::vector<bool>& shells,
+                          const BodyEnds& bodies, std::vector<LimbTip>& tips) {
+  const std::vector<Index> twice_euler = twice_euler_characteristics(surface);
+  std::vector<bool> has_ears(shells.size(), false);
+  for (Index c = 0; c < surface.component_count; ++c) {
+    has_ears[c] = bodies.limb_count(c) > 0;
+    if (shells[c] || (!has_ears[c] && twice_euler[c] == 4)) continue;
+    for (LimbTip& end : bodies.run(c)) {
+      has_ears[c] = true;
+      tips.push_back(std::move(end));
+    }
+  }
+  const auto is_corner = [&](const LimbTip& tip) {
+    return tip.kind == TipKind::kEar && !has_ears[surface.component[tip.vertex]];
+  };
+  tips.erase(std::remove_if(tips.begin(), tips.end(), is_corner), tips.end());
+}
+
+}  // namespace detail
+
+MSPSKEL_INLINE std::vector<LimbTip> find_limb_tips(const SurfaceSnapshot& surface,
+                                                   const BoundingVolumeHierarchy& solid,
+                                                   const VertexSlices& slices, const LimbOptions& options,
+                                                   const Execution& execution) {
+  const SurfaceWays ways(surface);
+  const auto middle = detail::middle_of_components(surface, ways, solid, slices);
+  const std::vector<double> distance = inner_distances(surface, ways, solid, middle, execution);
+  const std::vector<detail::FoundLimb> limbs =
+      detail::LimbTipSearch(surface, solid, slices, options, distance).run();
+  std::vector<LimbTip> tips;
+  for (const detail::FoundLimb& limb : limbs) tips.push_back(limb.tip);
+  // Where few vertices make the end, their mean lies on the surface but for rounding.
+  constexpr double kLeastClearance = 0.05;  // half widths
+  for (LimbTip& tip : tips)
+    if (!solid.inside(tip.target) || solid.distance(tip.target) < kLeastClearance * tip.measures.half_width)
+      tip.target = surface.position[tip.vertex];
+  const std::vector<bool> shells = find_shells(surface, solid, slices);
+  drop_tips_in_walls(surface, solid, shells, tips);
+  detail::add_body_ends(surface, shells, detail::BodyEnds(surface, solid, limbs), tips);
+  detail::add_longest_ways(surface, ways, distance, tips);
+  for (LimbTip& tip : tips) tip.position = surface.position[tip.vertex];
+  return tips;
+}
+
+MSPSKEL_INLINE std::vector<LimbTip> on_coarser_surface(std::vector<LimbTip> tips,
+                                                       const std::vector<Index>& coarse_vertex) {
+  for (LimbTip& tip : tips) {
+    tip.vertex = coarse_vertex[tip.vertex];
+    for (Index& v : tip.cap) v = coarse_vertex[v];
+    std::sort(tip.cap.begin(), tip.cap.end());
+    tip.cap.erase(std::unique(tip.cap.begin(), tip.cap.end()), tip.cap.end());
+  }
+  return tips;
+}
+
+}  // namespace mspskel

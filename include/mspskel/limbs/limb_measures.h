@@ -1,0 +1,66 @@
+// When a part of the shape is a limb that deserves an arc.
+#pragma once
+
+#include "mspskel/base/error.h"
+
+namespace mspskel {
+
+namespace detail {
+// So much of a limb's end, in half widths, has its mean in the middle of it, on flat ends as well.
+inline constexpr double kEnd = 0.75;
+}  // namespace detail
+
+struct LimbOptions {
+  // The least slenderness of a limb, 0 to 1000; larger keeps fewer features. It is 1 for the corner of a cube
+  // as its centre sees it.
+  double slenderness = 1.25;
+  // As a share of the model's extent, 0 to 1. Limbs are some times deeper; below it everything is noise.
+  double smallest = 0.01;
+};
+
+inline void validate(const LimbOptions& o) {
+  if (!(o.slenderness >= 0 && o.slenderness <= 1000))
+    throw UsageError("slenderness of limbs must be from 0 to 1000");
+  if (!(o.smallest >= 0 && o.smallest <= 1))
+    throw UsageError("smallest feature must be from 0 to 1 of the extent");
+}
+
+// What a limb is judged by: how far it protrudes for its surface, for its width, and how much smaller its
+// slices are than those of the part that it leaves (the saturation of Eq. 4.5 lifted from nodes to branches).
+struct LimbMeasures {
+  double depth = 0.0;               // how far the limb's surface reaches beyond the rest
+  double half_width = 0.0;          // of its slices: their median, or lower quartile along a way into it
+  double half_chord = 0.0;          // half the chord inward from its surface, the median
+  double carrier_half_chord = 0.0;  // the same of the surface beside its root
+  double msp_ratio = 1.0;           // MSP of the part that it leaves / MSP of the limb, at least 1
+  // 2π depth² / area: length over radius of a tube, 2 / sin of the half angle of a cone. An area moves little
+  // under noise and with the triangles, so this decides.
+  double slenderness = 0.0;
+};
+
+// A limb by its slenderness. Its surface faces itself: inward of the corner of a block is the whole block.
+inline bool is_limb(const LimbMeasures& m, const LimbOptions& o) {
+  return m.slenderness >= o.slenderness && m.depth >= 1.4 * m.half_width && m.half_chord <= 2 * m.half_width;
+}
+
+// Slenderness of fingers, in those of limbs.
+inline constexpr double kFinger = 1.6;
+
+// A finger or a toe, beside others of a palm.
+inline bool is_digit(const LimbMeasures& m, const LimbOptions& o) {
+  return m.slenderness >= kFinger * o.slenderness && m.depth >= 1.6 * o.smallest;
+}
+
+// An ear or a horn: a bump rather than a limb, but much smaller than what carries it. Only in a shape that
+// has limbs: measured so, the corners of a block are ears as well. The corner of a plate is wider than the
+// plate is thick.
+inline bool is_ear(const LimbMeasures& m, const LimbOptions& o) {
+  return m.half_width <= 1.25 * m.carrier_half_chord && m.slenderness >= 0.3 * o.slenderness &&
+         m.slenderness * m.msp_ratio >= 0.65 * o.slenderness && m.depth >= 0.75 * m.half_width;
+}
+
+// How slender a part that no arc comes near has to be to get one: as a digit, since the rest of the shape,
+// which the arcs cover, is no part of its measure.
+inline double uncovered_slenderness(const LimbOptions& o) { return kFinger * o.slenderness; }
+
+}  // namespace mspskel

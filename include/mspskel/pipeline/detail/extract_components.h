@@ -1,0 +1,118 @@
+// Every component of a surface by itself, and the results as those of the whole.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mspskel/mesh/component_solids.h"
+#include "mspskel/pipeline/detail/extract_component.h"
+#include "mspskel/pipeline/detail/join_components.h"
+
+namespace mspskel {
+namespace detail {
+
+// Whether the options ask for more of a component than its part of the whole's nodes.
+inline ExtractOptions with_share_of_nodes(const ExtractOptions& options, Index own, Index all) {
+  ExtractOptions share = options;
+  share.refinement.nodes = static_cast<Index>(
+      std::max<std::int64_t>(1, std::int64_t{options.refinement.nodes} * own / std::max<Index>(all, 1)));
+  return share;
+}
+
+// Every component of a surface by itself: in a frame, with a budget of vertices and in a solid of its own.
+class ComponentwiseExtraction {
+ public:
+  ComponentwiseExtraction(const SurfaceSnapshot& surface, const ComponentSolids& solids,
+                          const ExtractOptions& options)
+      : surface_(surface),
+        solids_(solids),
+        options_(options),
+        part_(solids.faces.size()),
+        own_(part_.size()) {
+    for (Index f = 0; f < surface.face_count(); ++f)
+      own_[surface.component[surface.origin[3 * f]]].push_back(f);
+  }
+
+  void run_into(ExtractResult& result) {
+    ExtractOptions first = options_;
+    first.refinement.nodes = 0;
+    extract_all([&](Index) { return first; });
+    if (options_.refinement.nodes > 0 && options_.refinement.enabled) {
+      // A component gets nodes in proportion to what it has without a budget.
+      std::vector<Index> nodes;
+      Index all = 0;
+      for (const ExtractResult& part : part_) {
+        nodes.push_back(static_cast<Index>(part.skeleton.nodes.size()));
+        all += nodes.back();
+      }
+      if (all > options_.refinement.nodes)
+        extract_all([&](Index c) { return with_share_of_nodes(options_, nodes[c], all); });
+    }
+    make_room(result);
+    for (std::size_t c = 0; c < part_.size(); ++c) {
+      const NormalisedFrame frame = part_[c].surface.frame;
+      join_component(std::move(part_[c]),
+                     {static_cast<Index>(c), vertex_[c], own_[c], {frame, surface_.frame}}, result);
+    }
+  }
+
+ private:
+  template <class OptionsOf>
+  void extract_all(OptionsOf options_of) {
+    vertex_.assign(part_.size(), {});
+    std::vector<Index> small, large;
+    for (std::size_t c = 0; c < part_.size(); ++c)
+      (own_[c].size() <= kSmallComponent ? small : large).push_back(static_cast<Index>(c));
+    parallel_for(
+        static_cast<Index>(small.size()), "components", options_.execution, [] { return 0; },
+        [&](Index i, int) {
+          ExtractOptions options = options_of(small[i]);
+          // Progress is for the calling thread, which reports it for the components as a whole.
+          options.execution = {1, {}};
+          extract_one(small[i], options);
+        },
+        1);
+    for (const Index c : large) extract_one(c, options_of(c));
+  }
+
+  void extract_one(Index c, const ExtractOptions& options) {
+    SurfacePart own = surface_part(surface_, own_[c], own_[c].size());
+    vertex_[c] = std::move(own.vertex);
+    std::optional<SurfacePart> bounds;
+    if (solids_.faces[c].size() > own_[c].size())
+      bounds = surface_part(surface_, solids_.faces[c], own_[c].size());
+    part_[c] = extract_component(std::move(own.surface), bounds ? &bounds->surface : nullptr, options);
+  }
+
+  const SurfaceSnapshot& surface_;
+  const ComponentSolids& solids_;
+  const ExtractOptions& options_;
+  std::vector<ExtractResult> part_;         // per component
+  std::vector<std::vector<Index>> own_;     // per component: its faces
+  std::vector<std::vector<Index>> vertex_;  // per component: its vertices
+};
+
+inline ExtractResult extract_componentwise(SurfaceSnapshot surface, const ExtractOptions& options) {
+  ExtractResult result;
+  result.surface = std::move(surface);
+  const ComponentSolids solids = find_component_solids(result.surface, options.execution.progress);
+  ComponentwiseExtraction(result.surface, solids, options).run_into(result);
+  const auto cavities = std::count(solids.cavity.begin(), solids.cavity.end(), 1);
+  if (cavities > 0)
+    result.warnings.push_back(std::to_string(cavities) + (cavities == 1 ? " cavity" : " cavities") +
+                              " found: each has a skeleton of its own, which lies in the hollow, and the "
+                              "solid round it keeps clear of it");
+  return result;
+}
+
+inline ExtractResult extract_pieces(SurfaceSnapshot surface, const ExtractOptions& options) {
+  return surface.component_count > 1 ? extract_componentwise(std::move(surface), options)
+                                     : extract_component(std::move(surface), nullptr, options);
+}
+
+}  // namespace detail
+}  // namespace mspskel

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "mspskel/base/linkage.h"
+#include "mspskel/pipeline/detail/carry_over.h"
+#include "mspskel/pipeline/detail/extract_components.h"
+#include "mspskel/pipeline/detail/warnings.h"
+
+namespace mspskel {
+
+MSPSKEL_INLINE ExtractOptions default_options() {
+  ExtractOptions o;
+  // The repulsive force has a minimum in each lobe of a wide slice, the filled region's field one in the
+  // middle.
+  o.points.point.method = SkeletalPointMethod::kAreaField;
+  o.points.point.tolerance = 0.01;  // its square is the error
+  o.points.holes = HoleSearch::kProbe;
+  o.collapse.lambda = 0;
+  o.collapse.angle_floor = 0.3;
+  o.collapse.one_dimensional = EdgePolicy::kKeep;
+  return o;
+}
+
+MSPSKEL_INLINE ExtractOptions thesis_options() {
+  ExtractOptions o;
+  o.mode = Mode::kThesis;
+  o.coarsen = false;
+  o.slices = SliceMethod::kSampling;
+  o.error = {SliceErrorAverage::kMean, SliceErrorScale::kMinMax};
+  o.points.point.method = SkeletalPointMethod::kSampledForce;
+  o.coherence.enabled = false;
+  o.filter_branches = true;
+  o.refinement.enabled = false;
+  return o;
+}
+
+MSPSKEL_INLINE void validate(const ExtractOptions& options) {
+  validate(options.coarsening);
+  validate(options.subdivision);
+  if (options.limb_vertices < 4) throw UsageError("limb vertices must be at least 4");
+  validate(options.search);
+  validate(options.sampling);
+  validate(options.cone);
+  validate(options.points);
+  validate(options.coherence);
+  validate(options.cocycles);
+  validate(options.collapse);
+  validate(options.filter);
+  validate(options.refinement);
+}
+
+namespace detail {
+
+// Whether some component has fewer vertices than it may be given.
+inline bool may_be_subdivided(const SurfaceSnapshot& surface, const SubdivisionOptions& options) {
+  std::vector<Index> count(static_cast<std::size_t>(surface.component_count), 0);
+  for (const Index c : surface.component)
+    if (c != kNone) ++count[c];
+  return std::any_of(count.begin(), count.end(), [&](Index n) { return n < options.vertices; });
+}
+
+}  // namespace detail
+
+MSPSKEL_INLINE ExtractResult extract_skeleton_of_snapshot(SurfaceSnapshot surface,
+                                                          const ExtractOptions& options) {
+  validate(options);
+  std::optional<SubdividedSurface> fine;
+  if (options.coarsen && detail::may_be_subdivided(surface, options.subdivision))
+    fine = subdivide_surface(surface, options.subdivision, options.execution);
+  ExtractResult result;
+  if (fine && fine->cuts > 0) {
+    result = detail::extract_pieces(std::move(fine->surface), options);
+    detail::restrict_to_input(std::move(surface), fine->vertex, options, result);
+  } else {
+    result = detail::extract_pieces(std::move(surface), options);
+  }
+  detail::collect_warnings(result);
+  return result;
+}
+
+}  // namespace mspskel

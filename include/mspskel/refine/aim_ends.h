@@ -1,0 +1,27 @@
+// Leaf ends are aimed at the surface that they stand for, before anyone judges or grows them.
+#pragma once
+
+#include "mspskel/refine/prune_branches.h"
+
+namespace mspskel {
+
+// Where slices lie along a limb instead of across it, as round tips and flat ends (terminal deviation,
+// thesis 3.1), a leaf arc ends far from its part of the surface. From its end, or from its joint if it never
+// leaves the joint's ball, each leaf arc is led straight towards the vertex that is farthest outside the
+// balls of the skeleton, among those of its part that lie ahead of the tip, until the ball there touches it.
+// Arcs whose part is covered, or whose target is out of sight, stay. Returns the number of arcs that changed.
+// Cost: O(vertices on leaf arcs · points near them) and a few queries an arc.
+Index aim_ends(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
+               double step, const Execution& execution = {});
+
+// Leaf arcs that stand for a limb's tip (leaves_of_tips) are led straight to its target from their last point
+// that sees it, up to the one nearest to it; those that end within `slack` half widths of the limb from it
+// stay. Returns the number of arcs that changed. Cost: O(vertices on leaf arcs), a few queries a tip.
+Index aim_at_tips(ArcGraph& graph, const BoundingVolumeHierarchy& solid, const std::vector<LimbTip>& tips,
+                  double step, double slack = 0);
+
+}  // namespace mspskel
+
+#ifndef MSPSKEL_COMPILED
+#include "mspskel/refine/detail/aim_ends_impl.h"
+#endif

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <algorithm>
+
+#include "mspskel/base/linkage.h"
+#include "mspskel/refine/detail/arc_leaves.h"
+
+namespace mspskel {
+namespace detail {
+
+// One round: removes the leaf arcs that stand for no tip, from a graph without through hubs. Where all arcs
+// of a joint go but one, that one is a leaf arc of the next round.
+inline Index remove_leaves_without_tip(ArcGraph& graph, const std::vector<LimbTip>& tips) {
+  auto at = graph.incidence();
+  const ArcLeaves leaves(graph, at);
+  std::vector<bool> has_tip(leaves.leaf.size(), false);
+  for (const std::size_t leaf : leaves_of_tips(graph, leaves, tips))
+    if (leaf != kNoLeaf) has_tip[leaf] = true;
+  std::vector<std::pair<double, std::size_t>> bare;
+  for (std::size_t i = 0; i < leaves.leaf.size(); ++i)
+    if (!has_tip[i]) bare.push_back({arc_length(graph.arcs[leaves.leaf[i].arc]), i});
+  std::sort(bare.begin(), bare.end());
+  Index removed = 0;
+  for (const auto& [length, i] : bare) {
+    const auto [arc, joint, tip] = leaves.leaf[i];
+    if (at[joint].size() < 2) continue;
+    remove_leaf_arc(graph, arc, joint);
+    at[joint].erase(std::find(at[joint].begin(), at[joint].end(), arc));
+    ++removed;
+  }
+  return removed;
+}
+
+}  // namespace detail
+
+MSPSKEL_INLINE Index prune_branches(ArcGraph& graph, const std::vector<LimbTip>& tips) {
+  Index removed = 0;
+  while (true) {
+    dissolve_through_hubs(graph);
+    const Index round = detail::remove_leaves_without_tip(graph, tips);
+    if (round == 0) return removed;
+    removed += round;
+  }
+}
+
+MSPSKEL_INLINE Index remove_spurs(ArcGraph& graph, const BoundingVolumeHierarchy& solid) {
+  Index removed = 0;
+  while (true) {
+    dissolve_through_hubs(graph);
+    const auto at = graph.incidence();
+    Index spur = kNone, joint = kNone;
+    for (Index a = 0; a < graph.arc_count() && spur == kNone; ++a) {
+      if (!graph.arcs[a].alive) continue;
+      for (const int end : {0, 1}) {
+        const Index tip = graph.arcs[a].hub[end], hub = graph.arcs[a].hub[1 - end];
+        if (at[tip].size() != 1 || at[hub].size() < 3) continue;
+        const Vector3& centre = graph.hub_position[hub];
+        if ((graph.hub_position[tip] - centre).norm() >= solid.distance(centre)) continue;
+        spur = a;
+        joint = hub;
+      }
+    }
+    if (spur == kNone) return removed;
+    remove_leaf_arc(graph, spur, joint);
+    ++removed;
+  }
+}
+
+}  // namespace mspskel

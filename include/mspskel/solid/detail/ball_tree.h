@@ -1,0 +1,81 @@
+// Balls by halves: how far outside their union a point lies.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "mspskel/solid/detail/ball_chain.h"
+
+namespace mspskel {
+namespace detail {
+
+class BallTree {
+ public:
+  explicit BallTree(std::vector<Ball> balls) : balls_(std::move(balls)) {
+    if (balls_.empty()) return;
+    bounds_.resize(4 * (balls_.size() / kLeaf + 1));
+    build(0, 0, balls_.size());
+  }
+
+  // The least |x - c| - r, infinity without balls; negative inside. O(log balls) where few are near.
+  double distance_outside(const Vector3& x) const {
+    double best = std::numeric_limits<double>::infinity();
+    if (!balls_.empty()) search(0, 0, balls_.size(), x, best);
+    return best;
+  }
+
+ private:
+  struct Bounds {
+    Vector3 low, high;  // of the centres
+    double radius;      // the largest
+    double distance_outside(const Vector3& x) const {
+      return (x - x.cwiseMax(low).cwiseMin(high)).norm() - radius;
+    }
+  };
+  static constexpr std::size_t kLeaf = 8;
+
+  void build(std::size_t at, std::size_t begin, std::size_t end) {
+    if (at >= bounds_.size()) bounds_.resize(at + 1);
+    Bounds b{balls_[begin].centre, balls_[begin].centre, 0.0};
+    for (std::size_t i = begin; i < end; ++i) {
+      b.low = b.low.cwiseMin(balls_[i].centre);
+      b.high = b.high.cwiseMax(balls_[i].centre);
+      b.radius = std::max(b.radius, balls_[i].radius);
+    }
+    bounds_[at] = b;
+    if (end - begin <= kLeaf) return;
+    Eigen::Index axis = 0;
+    (b.high - b.low).maxCoeff(&axis);
+    const std::size_t middle = begin + (end - begin) / 2;
+    const auto first = balls_.begin();
+    std::nth_element(first + static_cast<std::ptrdiff_t>(begin), first + static_cast<std::ptrdiff_t>(middle),
+                     first + static_cast<std::ptrdiff_t>(end),
+                     [&](const Ball& p, const Ball& q) { return p.centre[axis] < q.centre[axis]; });
+    build(2 * at + 1, begin, middle);
+    build(2 * at + 2, middle, end);
+  }
+
+  void search(std::size_t at, std::size_t begin, std::size_t end, const Vector3& x, double& best) const {
+    if (bounds_[at].distance_outside(x) >= best) return;
+    if (end - begin <= kLeaf) {
+      for (std::size_t i = begin; i < end; ++i) best = std::min(best, balls_[i].distance_outside(x));
+      return;
+    }
+    const std::size_t middle = begin + (end - begin) / 2, left = 2 * at + 1, right = left + 1;
+    const bool left_first = bounds_[left].distance_outside(x) <= bounds_[right].distance_outside(x);
+    for (const bool goes_left : {left_first, !left_first}) {
+      if (goes_left)
+        search(left, begin, middle, x, best);
+      else
+        search(right, middle, end, x, best);
+    }
+  }
+
+  std::vector<Ball> balls_;
+  std::vector<Bounds> bounds_;  // of a binary tree: the children of i are 2 i + 1 and 2 i + 2
+};
+
+}  // namespace detail
+}  // namespace mspskel

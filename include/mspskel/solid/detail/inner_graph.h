@@ -1,0 +1,210 @@
+// Shortest paths through the solid near its middle.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+#include <tuple>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+#include <vector>
+
+#include "mspskel/base/progress.h"
+#include "mspskel/collapse/crossing_labels.h"
+#include "mspskel/mesh/bounding_volume_hierarchy.h"
+#include "mspskel/mesh/detail/box_index.h"
+#include "mspskel/mesh/surface_snapshot.h"
+#include "mspskel/solid/detail/inward_chord.h"
+
+namespace mspskel {
+namespace detail {
+
+// The mesh's graph with every vertex moved to the middle of its inward chord. Nothing is computed before
+// prepare(), and distances to the surface only where a path comes by: many meshes need no path at all.
+class InnerGraph {
+ public:
+  InnerGraph(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
+             const Execution& execution = {})
+      : surface_(surface), solid_(solid), execution_(execution) {}
+
+  // Once, before anything else. Cost: two rays a vertex.
+  void prepare() {
+    if (!clearance_.empty()) return;
+    point_ = surface_.position;
+    clearance_.assign(surface_.position.size(), 0.0);
+    parallel_for(
+        surface_.vertex_count(), "arcs", execution_, [] { return 0; }, [&](Index v, int) { place(v); });
+    for (Index v = 0; v < surface_.vertex_count(); ++v)
+      if (usable(v)) index_.add(v, point_[v], point_[v]);
+    index_.build();
+    marks_.assign(surface_.position.size(), {});
+  }
+
+  const SurfaceSnapshot& surface() const { return surface_; }
+  bool usable(Index v) const { return clearance_[v] != 0; }
+  const Vector3& point(Index v) const { return point_[v]; }
+
+  // Among the vertices that `allowed` holds for; kNone if none of them has a point.
+  template <class Allowed>
+  Index nearest(const Vector3& x, Allowed allowed) const {
+    Index best = kNone;
+    for (Index v = 0; v < surface_.vertex_count(); ++v)
+      if (usable(v) && allowed(v) &&
+          (best == kNone || (point_[v] - x).squaredNorm() < (point_[best] - x).squaredNorm()))
+        best = v;
+    return best;
+  }
+
+  // Points strictly between a and b along the cheapest path, or false. Cost: what the search comes by.
+  bool path(const Vector3& a, const Vector3& b, std::vector<Vector3>& between) {
+    for (const Index v : marked_) marks_[v] = {};
+    marked_.clear();
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
+    for (const auto& [distance, v] : entries(a)) queue.push({step_cost(distance, clearance(v)), v, kNone});
+    for (const auto& [distance, v] : entries(b)) mark(v).goal = true;
+    while (!queue.empty()) {
+      const auto [cost, v, before] = queue.top();
+      queue.pop();
+      // Whether an edge stays inside is asked where it would be the cheapest way, which few edges are.
+      if (marks_[v].done || (before != kNone && solid_.segment_crosses(point_[before], point_[v]))) continue;
+      mark(v).done = true;
+      marks_[v].before = before;
+      if (marks_[v].goal) {
+        between.clear();
+        for (Index w = v; w != kNone; w = marks_[w].before) between.push_back(point_[w]);
+        std::reverse(between.begin(), between.end());
+        return true;
+      }
+      const Index first = surface_.vertex_halfedge[v];
+      Index h = first;
+      do {
+        const Index w = surface_.target(h);
+        h = surface_.next_outgoing(h);
+        if (!usable(w) || marks_[w].done) continue;
+        const double length = (point_[w] - point_[v]).norm();
+        queue.push({cost + step_cost(length, std::min(clearance(v), clearance(w))), w, v});
+      } while (h != first);
+    }
+    return false;
+  }
+
+  // As path(), among the ways with this label. False as well where the search comes by many labels before it
+  // finds one: so many ways round handles are as short.
+  bool path_of_class(const Vector3& a, const Vector3& b, const CrossingLabels& crossings,
+                     const CocycleLabel& wanted, std::vector<Vector3>& between) {
+    constexpr std::size_t kLabels = 4;  // as many as all points with so many labels each
+    std::vector<Place> places;
+    std::unordered_map<Index, std::vector<Index>> at;  // places of a vertex
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
+    for (const auto& [distance, v] : entries(a)) queue.push({step_cost(distance, clearance(v)), v, kNone});
+    std::unordered_set<Index> goal;
+    for (const auto& [distance, v] : entries(b)) goal.insert(v);
+    while (!queue.empty() && places.size() < kLabels * point_.size()) {
+      const auto [cost, v, before] = queue.top();
+      queue.pop();
+      CocycleLabel label = before == kNone
+                               ? crossings(a, point_[v])
+                               : places[before].label + crossings(point_[places[before].vertex], point_[v]);
+      std::vector<Index>& here = at[v];
+      if (std::any_of(here.begin(), here.end(), [&](Index p) { return places[p].label == label; }) ||
+          (before != kNone && solid_.segment_crosses(point_[places[before].vertex], point_[v])))
+        continue;
+      const auto place = static_cast<Index>(places.size());
+      here.push_back(place);
+      places.push_back({v, before, std::move(label)});
+      if (goal.count(v) > 0 && places[place].label + crossings(point_[v], b) == wanted) {
+        between.clear();
+        for (Index p = place; p != kNone; p = places[p].before) between.push_back(point_[places[p].vertex]);
+        std::reverse(between.begin(), between.end());
+        return true;
+      }
+      const Index first = surface_.vertex_halfedge[v];
+      Index h = first;
+      do {
+        const Index w = surface_.target(h);
+        h = surface_.next_outgoing(h);
+        if (!usable(w) || (before != kNone && places[before].vertex == w)) continue;
+        const double length = (point_[w] - point_[v]).norm();
+        queue.push({cost + step_cost(length, std::min(clearance(v), clearance(w))), w, place});
+      } while (h != first);
+    }
+    return false;
+  }
+
+ private:
+  static constexpr double kUnknown = -1.0;
+
+  // A point reached by ways of one class, and the place before it.
+  struct Place {
+    Index vertex, before;
+    CocycleLabel label;
+  };
+
+  struct Mark {
+    Index before = kNone;
+    bool done = false, goal = false;
+  };
+  Mark& mark(Index v) {
+    marked_.push_back(v);
+    return marks_[v];
+  }
+
+  // Cost of the way to a vertex, the vertex, and the vertex or place before it.
+  using Entry = std::tuple<double, Index, Index>;
+
+  void place(Index v) {
+    if (surface_.vertex_halfedge[v] == kNone) return;
+    const auto chord = inward_chord(surface_, solid_, v);
+    if (!chord) return;
+    point_[v] = chord->start - 0.5 * chord->length * surface_.normal[v];
+    clearance_[v] = kUnknown;
+  }
+
+  double clearance(Index v) {
+    if (clearance_[v] == kUnknown) clearance_[v] = solid_.distance(point_[v]);
+    return clearance_[v];
+  }
+
+  static double step_cost(double length, double clearance) { return length / std::max(clearance, 1e-6); }
+
+  // The nearest inner points that x sees.
+  std::vector<std::pair<double, Index>> entries(const Vector3& x) const {
+    constexpr std::size_t kWanted = 8, kTried = 64;
+    std::vector<std::pair<double, Index>> seen;
+    for (const auto& entry : nearest_points(x, kTried))
+      if (seen.size() < kWanted && !solid_.segment_crosses(x, point_[entry.second])) seen.push_back(entry);
+    return seen;
+  }
+
+  // The `count` points nearest to x, or all, by growing distance: from balls round it of growing radius.
+  std::vector<std::pair<double, Index>> nearest_points(const Vector3& x, std::size_t count) const {
+    constexpr double kFirst = 0.02, kBeyondAll = 16;  // model extents
+    std::vector<std::pair<double, Index>> found;
+    for (double radius = kFirst; found.size() < count && radius < kBeyondAll; radius *= 2) {
+      found.clear();
+      const Vector3 reach = Vector3::Constant(radius);
+      index_.in_box(x - reach, x + reach, [&](Index v) {
+        const double distance = (point_[v] - x).norm();
+        if (distance <= radius) found.push_back({distance, v});
+      });
+    }
+    const auto end = found.begin() + static_cast<std::ptrdiff_t>(std::min(found.size(), count));
+    std::partial_sort(found.begin(), end, found.end());
+    found.erase(end, found.end());
+    return found;
+  }
+
+  const SurfaceSnapshot& surface_;
+  const BoundingVolumeHierarchy& solid_;
+  const Execution execution_;
+  std::vector<Vector3> point_;
+  std::vector<double> clearance_;  // 0: no chord
+  BoxIndex index_;                 // of the usable points
+  std::vector<Mark> marks_;        // per vertex; of `marked_` alone they mean something
+  std::vector<Index> marked_;
+};
+
+}  // namespace detail
+}  // namespace mspskel

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "mspskel/base/linkage.h"
+#include "mspskel/base/value_at_rank.h"
+#include "mspskel/mesh/detail/solid_moments.h"
+#include "mspskel/solid/detail/inward_chord.h"
+
+namespace mspskel {
+MSPSKEL_INLINE std::vector<bool> find_shells(const SurfaceSnapshot& surface,
+                                             const BoundingVolumeHierarchy& solid,
+                                             const VertexSlices& slices) {
+  constexpr double kThin = 0.3;       // half widths
+  constexpr double kWall = 2.0 / 3;   // share of the area
+  constexpr double kPossible = 0.45;  // half the mean thickness, median half widths
+  std::vector<bool> shell(static_cast<std::size_t>(surface.component_count), false);
+  std::vector<std::vector<Index>> vertices(shell.size());
+  for (Index v = 0; v < surface.vertex_count(); ++v)
+    if (slices.valid[v]) vertices[surface.component[v]].push_back(v);
+  std::vector<double> area(shell.size(), 0.0);
+  for (Index v = 0; v < surface.vertex_count(); ++v)
+    if (surface.vertex_halfedge[v] != kNone) area[surface.component[v]] += surface.vertex_area[v];
+  const std::vector<detail::SolidMoments> moments = detail::solid_moments(surface);
+  for (std::size_t c = 0; c < shell.size(); ++c) {
+    if (vertices[c].empty()) continue;
+    std::vector<double> widths;
+    double sliced = 0, thin = 0;
+    for (const Index v : vertices[c]) widths.push_back(slices.half_width[v]);
+    const double width = detail::value_at_rank(std::move(widths), 0.5);
+    // A wall of area A, both sides, and thickness t has volume A t / 2.
+    if (!(std::abs(moments[c].volume) < kPossible * width * area[c] / 2)) continue;
+    for (const Index v : vertices[c]) {
+      sliced += surface.vertex_area[v];
+      if (detail::half_chord(surface, solid, v) < kThin * slices.half_width[v])
+        thin += surface.vertex_area[v];
+    }
+    shell[c] = thin >= kWall * sliced;
+  }
+  return shell;
+}
+
+}  // namespace mspskel

@@ -1,0 +1,3 @@
+#include "mspskel/arcs/arc_graph.h"
+
+#include "mspskel/arcs/detail/arc_graph_impl.h"

@@ -1,0 +1,3 @@
+#include "mspskel/arcs/center_arcs.h"
+
+#include "mspskel/arcs/detail/center_arcs_impl.h"

@@ -1,0 +1,3 @@
+#include "mspskel/arcs/cycle_rank.h"
+
+#include "mspskel/arcs/detail/cycle_rank_impl.h"

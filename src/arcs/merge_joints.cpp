@@ -1,0 +1,3 @@
+#include "mspskel/arcs/merge_joints.h"
+
+#include "mspskel/arcs/detail/merge_joints_impl.h"

@@ -1,0 +1,3 @@
+#include "mspskel/arcs/route_inside.h"
+
+#include "mspskel/arcs/detail/route_inside_impl.h"

@@ -1,0 +1,3 @@
+#include "mspskel/arcs/space_nodes.h"
+
+#include "mspskel/arcs/detail/space_nodes_impl.h"

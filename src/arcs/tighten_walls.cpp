@@ -1,0 +1,3 @@
+#include "mspskel/arcs/tighten_walls.h"
+
+#include "mspskel/arcs/detail/tighten_walls_impl.h"

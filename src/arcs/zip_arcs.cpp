@@ -1,0 +1,3 @@
+#include "mspskel/arcs/zip_arcs.h"
+
+#include "mspskel/arcs/detail/zip_arcs_impl.h"

@@ -1,4 +1,0 @@
-// Compiles the pipeline once.
-#include "mspskel/extract_skeleton.h"
-
-#include "mspskel/detail/extract_skeleton_impl.h"

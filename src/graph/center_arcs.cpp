@@ -1,3 +1,0 @@
-#include "mspskel/graph/center_arcs.h"
-
-#include "mspskel/graph/detail/center_arcs_impl.h"

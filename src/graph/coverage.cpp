@@ -1,3 +1,0 @@
-#include "mspskel/graph/coverage.h"
-
-#include "mspskel/graph/detail/coverage_impl.h"

@@ -1,3 +1,0 @@
-#include "mspskel/graph/curve_skeleton.h"
-
-#include "mspskel/graph/detail/curve_skeleton_impl.h"

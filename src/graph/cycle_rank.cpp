@@ -1,3 +1,0 @@
-#include "mspskel/graph/cycle_rank.h"
-
-#include "mspskel/graph/detail/cycle_rank_impl.h"

@@ -1,3 +1,0 @@
-#include "mspskel/graph/extend_ends.h"
-
-#include "mspskel/graph/detail/extend_ends_impl.h"

@@ -1,3 +1,0 @@
-#include "mspskel/graph/find_digits.h"
-
-#include "mspskel/graph/detail/find_digits_impl.h"

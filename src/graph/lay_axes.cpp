@@ -1,3 +1,0 @@
-#include "mspskel/graph/lay_axes.h"
-
-#include "mspskel/graph/detail/lay_axes_impl.h"

@@ -1,3 +1,0 @@
-#include "mspskel/graph/limb_tips.h"
-
-#include "mspskel/graph/detail/limb_tips_impl.h"

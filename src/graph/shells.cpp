@@ -1,3 +1,0 @@
-#include "mspskel/graph/shells.h"
-
-#include "mspskel/graph/detail/shells_impl.h"

@@ -1,3 +1,0 @@
-#include "mspskel/graph/space_nodes.h"
-
-#include "mspskel/graph/detail/space_nodes_impl.h"

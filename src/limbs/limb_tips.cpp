@@ -1,0 +1,3 @@
+#include "mspskel/limbs/limb_tips.h"
+
+#include "mspskel/limbs/detail/limb_tips_impl.h"

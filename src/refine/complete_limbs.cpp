@@ -1,0 +1,3 @@
+#include "mspskel/refine/complete_limbs.h"
+
+#include "mspskel/refine/detail/complete_limbs_impl.h"

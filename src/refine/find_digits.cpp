@@ -1,0 +1,3 @@
+#include "mspskel/refine/find_digits.h"
+
+#include "mspskel/refine/detail/find_digits_impl.h"

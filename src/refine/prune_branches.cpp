@@ -1,0 +1,3 @@
+#include "mspskel/refine/prune_branches.h"
+
+#include "mspskel/refine/detail/prune_branches_impl.h"

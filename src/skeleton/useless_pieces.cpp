@@ -1,0 +1,3 @@
+#include "mspskel/skeleton/useless_pieces.h"
+
+#include "mspskel/skeleton/detail/useless_pieces_impl.h"

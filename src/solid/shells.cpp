@@ -1,0 +1,3 @@
+#include "mspskel/solid/shells.h"
+
+#include "mspskel/solid/detail/shells_impl.h"

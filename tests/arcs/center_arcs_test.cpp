@@ -1,0 +1,199 @@
+// Arcs come to the middle of the solid and never leave it on the way.
+#include "mspskel/arcs/center_arcs.h"
+
+#include <catch2/catch.hpp>
+
+#include "mspskel/arcs/detail/arc_points.h"
+#include "mspskel/mesh/bounding_volume_hierarchy.h"
+#include "mspskel/mesh/build_mesh.h"
+#include "mspskel/samples/samples.h"
+#include "mspskel/samples/skin_graph.h"
+#include "support/arc_graphs.h"
+
+using namespace mspskel;
+using namespace mspskel::test;
+
+namespace {
+
+struct Solid {
+  SurfaceSnapshot surface;
+  BoundingVolumeHierarchy hierarchy;
+  explicit Solid(const DefaultMesh& mesh) : surface(make_snapshot(mesh)), hierarchy(surface) {}
+  Vector3 at(double x, double y, double z) const { return surface.frame.to_normalised({x, y, z}); }
+  double scale() const { return surface.frame.scale; }
+};
+
+double off_axis(const Vector3& x) { return std::hypot(x.x(), x.y()); }
+
+// An arc through a tube of radius 1 round the z axis, through (x(z), y(z), z).
+ArcGraph arc_along_tube(const Solid& solid, const std::function<Vector3(double)>& at) {
+  ArcGraph graph;
+  graph.add_hub(solid.surface.frame.to_normalised(at(2)));
+  graph.add_hub(solid.surface.frame.to_normalised(at(10)));
+  std::vector<Vector3> between;
+  for (int i = 1; i < 80; ++i) between.push_back(solid.surface.frame.to_normalised(at(2 + 0.1 * i)));
+  add_arc(graph, 0, 1, between);
+  return graph;
+}
+
+}  // namespace
+
+TEST_CASE("An arc beside the axis of a tube ends on it, its ends at their height") {
+  const Solid solid(tube(1, 12, 24, 24));
+  const std::vector<std::function<Vector3(double)>> arcs{
+      [](double z) { return Vector3(0.5, -0.3, z); },
+      [](double z) { return Vector3(0.4 * std::sin(z), 0.3, z); },
+      [](double z) { return Vector3(0.1 * (z - 6), 0, z); },
+  };
+  for (const auto& line : arcs) {
+    ArcGraph graph = arc_along_tube(solid, line);
+    CenteringOptions options;
+    options.rounds = 30;
+    center_arcs(graph, solid.hierarchy, options);
+    REQUIRE(arcs_meet_hubs(graph));
+    for (const Vector3& p : graph.arcs[0].points) CHECK(off_axis(solid.surface.frame.to_model(p)) < 0.01);
+    CHECK(solid.surface.frame.to_model(graph.hub_position[0]).z() == Approx(2).margin(0.15));
+    CHECK(solid.surface.frame.to_model(graph.hub_position[1]).z() == Approx(10).margin(0.15));
+  }
+}
+
+TEST_CASE("Arc points lie at most a step apart") {
+  const Solid solid(tube(1, 12, 24, 24));
+  ArcGraph graph = arc_along_tube(solid, [](double z) { return Vector3(0.4 * std::sin(z), 0.3, z); });
+  CenteringOptions options;
+  center_arcs(graph, solid.hierarchy, options);
+  const auto& points = graph.arcs[0].points;
+  for (std::size_t i = 1; i < points.size(); ++i)
+    CHECK((points[i] - points[i - 1]).norm() < 1.2 * options.step);
+}
+
+TEST_CASE("Without rounds arcs are resampled and stay where they are") {
+  const Solid solid(tube(1, 12, 24, 24));
+  ArcGraph graph = arc_along_tube(solid, [](double z) { return Vector3(0.4, 0.3, z); });
+  CenteringOptions options;
+  options.rounds = 0;
+  options.step = 0.02;
+  center_arcs(graph, solid.hierarchy, options);
+  const auto& points = graph.arcs[0].points;
+  for (std::size_t i = 1; i < points.size(); ++i)
+    CHECK((points[i] - points[i - 1]).norm() < (1 + 1e-6) * options.step);
+  for (const Vector3& p : points) CHECK(off_axis(solid.surface.frame.to_model(p)) == Approx(0.5));
+}
+
+TEST_CASE("The centre line of a torus keeps its loop") {
+  const Solid solid(torus(1, 0.3, 40, 16));
+  ArcGraph graph;
+  graph.add_hub(solid.at(1.1, 0, 0.1));
+  std::vector<Vector3> ring;
+  for (int i = 1; i < 40; ++i) {
+    const double a = 2 * kPi * i / 40;
+    ring.push_back(solid.at(1.1 * std::cos(a), 1.1 * std::sin(a), 0.1));
+  }
+  add_arc(graph, 0, 0, ring);
+  center_arcs(graph, solid.hierarchy, {});
+  REQUIRE(type_of(graph) == GraphType{1, 1});
+  REQUIRE(crossings(graph, solid.hierarchy) == 0);
+  for (const Vector3& p : graph.arcs[0].points)
+    CHECK(off_axis(solid.surface.frame.to_model(p)) == Approx(1).margin(0.03));
+}
+
+TEST_CASE("A step longer than a limb is wide does not cut its corners") {
+  BallGraph zigzag;
+  zigzag.blend = 0;
+  for (int i = 0; i < 6; ++i) zigzag.nodes.push_back({{0.5 * i, i % 2 ? 1.0 : 0.0, 0}, 0.08});
+  for (int i = 0; i < 5; ++i) zigzag.edges.push_back({i, i + 1});
+  const Solid solid(to_mesh(skin_graph(zigzag, 900)));
+  ArcGraph graph;
+  graph.add_hub(solid.surface.frame.to_normalised(zigzag.nodes.front().position));
+  graph.add_hub(solid.surface.frame.to_normalised(zigzag.nodes.back().position));
+  std::vector<Vector3> corners;
+  for (int i = 1; i < 5; ++i) corners.push_back(solid.surface.frame.to_normalised(zigzag.nodes[i].position));
+  add_arc(graph, 0, 1, corners);
+  REQUIRE(crossings(graph, solid.hierarchy) == 0);
+  for (const double step : {0.01, 0.05, 0.2, 0.5})
+    for (const int rounds : {1, 5}) {
+      ArcGraph moved = graph;
+      CenteringOptions options;
+      options.step = step;
+      options.rounds = rounds;
+      center_arcs(moved, solid.hierarchy, options);
+      INFO(step << ", " << rounds << " rounds");
+      CHECK(crossings(moved, solid.hierarchy) == 0);
+      CHECK(arcs_meet_hubs(moved));
+    }
+}
+
+TEST_CASE("Random graphs in a ball keep their type and stay inside") {
+  const Solid solid(sphere(120));
+  Random random(9);
+  for (int run = 0; run < 20; ++run) {
+    ArcGraph graph = random_arc_graph(random, 0.4);
+    const GraphType before = type_of(graph);
+    REQUIRE(crossings(graph, solid.hierarchy) == 0);
+    CenteringOptions options;
+    options.step = 0.05;
+    options.rounds = 3;
+    center_arcs(graph, solid.hierarchy, options);
+    CHECK(type_of(graph) == before);
+    CHECK(arcs_meet_hubs(graph));
+    CHECK(crossings(graph, solid.hierarchy) == 0);
+  }
+}
+
+TEST_CASE(
+    "A section seen from anywhere in a tube has the tube's radius, and its centre lies nearer the axis") {
+  const Solid solid(tube(1, 12, 48, 24));
+  for (const double x : {0.0, 0.3, 0.7}) {
+    const VisibleSection section = visible_section(solid.hierarchy, solid.at(x, 0, 6), Vector3::UnitZ(), 64);
+    REQUIRE(section.closed);
+    CHECK(section.radius * solid.scale() == Approx(1).margin(0.03));
+    CHECK(section.roundness > 0.97);
+    CHECK(section.clearance * solid.scale() == Approx(1 - x).margin(0.02));
+    CHECK(off_axis(solid.surface.frame.to_model(section.centre)) < 0.3 * x + 0.01);
+  }
+  CHECK_FALSE(visible_section(solid.hierarchy, solid.at(3, 0, 6), Vector3::UnitZ(), 64).closed);
+}
+
+TEST_CASE("Centring can be cancelled, and its options are checked") {
+  const Solid solid(tube(1, 12, 12, 12));
+  ArcGraph graph = arc_along_tube(solid, [](double z) { return Vector3(0.5, 0, z); });
+  Execution execution;
+  execution.progress = [](const char*, double) { return false; };
+  CHECK_THROWS_AS(center_arcs(graph, solid.hierarchy, {}, execution), Cancelled);
+  CHECK(arcs_meet_hubs(graph));
+  CenteringOptions wrong;
+  wrong.step = 0;
+  CHECK_THROWS_AS(center_arcs(graph, solid.hierarchy, wrong), UsageError);
+}
+
+TEST_CASE("A piece that moves as a whole does not leave the solid") {
+  const Solid solid(tube(1, 12, 24, 24));
+  const ArcGraph graph = arc_along_tube(solid, [](double z) { return Vector3(0.2, 0, z); });
+  // Without an edge across the surface on the way: only the places tell.
+  for (const double way : {0.5, 3.0, 100.0}) {
+    detail::ArcPoints points(graph);
+    std::vector<Vector3> goal;
+    for (const Vector3& x : points.x) goal.push_back(x + Vector3(way, way, 0));
+    detail::move_inside(points, solid.hierarchy, goal, CrossingLabels());
+    for (const Vector3& x : points.x) CHECK(solid.hierarchy.inside(x));
+  }
+}
+
+TEST_CASE("Arcs stay inside with any weight of straight arcs") {
+  SampleOptions small;
+  small.resolution = 120;
+  const Solid solid(build_mesh(make_sample("torus", small)));
+  for (const double smoothness : {0.1, 1e3, 1e6}) {
+    ArcGraph graph;
+    std::vector<Vector3> ring;
+    for (int i = 0; i <= 40; ++i)
+      ring.push_back(solid.at(std::cos(2 * kPi * (i % 40) / 40), std::sin(2 * kPi * (i % 40) / 40), 0.1));
+    const Index hub = graph.add_hub(ring.front());
+    graph.arcs.push_back({{hub, hub}, ring, true});
+    CenteringOptions options;
+    options.smoothness = smoothness;
+    center_arcs(graph, solid.hierarchy, options);
+    CHECK(crossings(graph, solid.hierarchy) == 0);
+    for (const Vector3& x : graph.arcs[0].points) CHECK(solid.hierarchy.inside(x));
+  }
+}

@@ -1,0 +1,95 @@
+// Arcs and hubs outside the solid move inside, into their own limb.
+#include "mspskel/arcs/route_inside.h"
+
+#include <catch2/catch.hpp>
+
+#include "mspskel/mesh/bounding_volume_hierarchy.h"
+#include "mspskel/samples/skin_graph.h"
+#include "support/arc_graphs.h"
+#include "support/solids.h"
+
+using namespace mspskel;
+using namespace mspskel::test;
+
+TEST_CASE("An arc across the hole of a torus comes back through the ring") {
+  const Solid solid(torus(1, 0.3, 40, 16));
+  ArcGraph graph;
+  graph.add_hub(solid.at({1, 0, 0}));
+  graph.add_hub(solid.at({-1, 0.05, 0}));
+  line(graph, 0, 1);
+  map_to_nearest(graph, solid.surface.position);
+  const RoutingResult result = route_inside(graph, solid.hierarchy, solid.surface);
+  CHECK(result.hubs_moved == 0);
+  CHECK(result.routed > 0);
+  CHECK(crossings(graph, solid.hierarchy) == 0);
+  for (const Vector3& p : graph.arcs[0].points) {
+    const Vector3 x = solid.model(p);
+    CHECK(std::hypot(x.x(), x.y()) > 0.69);
+  }
+  // What is inside is left alone.
+  const auto points = graph.arcs[0].points;
+  const RoutingResult again = route_inside(graph, solid.hierarchy, solid.surface);
+  CHECK((again.hubs_moved == 0 && again.routed == 0 && again.unroutable == 0));
+  CHECK(graph.arcs[0].points == points);
+}
+
+TEST_CASE("A hub in the cavity of a cup moves into the wall, and its arcs follow the wall") {
+  const Solid solid(sample("cup", 3100));
+  ArcGraph graph;
+  graph.add_hub(solid.at({0.1, 0, 0}));
+  graph.add_hub(solid.at({-0.95, 0, 0}));
+  graph.add_hub(solid.at({0, 0.97, 0.3}));
+  line(graph, 0, 1);
+  line(graph, 0, 2);
+  line(graph, 1, 2);
+  map_to_nearest(graph, solid.surface.position);
+  REQUIRE(crossings(graph, solid.hierarchy) > 0);
+  const RoutingResult result = route_inside(graph, solid.hierarchy, solid.surface);
+  CHECK(result.hubs_moved >= 1);
+  CHECK(result.unroutable == 0);
+  CHECK(crossings(graph, solid.hierarchy) == 0);
+  CHECK(type_of(graph) == GraphType{1, 1});
+}
+
+TEST_CASE("A hub outside moves into its own component, not into a nearer one") {
+  PolygonSoup soup = to_soup(tube(1, 6, 12, 8));
+  append(soup, to_soup(translated(tube(1, 6, 12, 8), {5, 0, 0})));
+  const Solid solid(to_mesh(soup));
+  ArcGraph graph;
+  graph.add_hub(solid.at({3.6, 0, 3}));  // of the first tube, nearer to the second
+  graph.add_hub(solid.at({0, 0, 5}));
+  graph.add_hub(solid.at({5, 0, 3}));
+  line(graph, 0, 1);
+  for (Index v = 0; v < solid.surface.vertex_count(); ++v) {
+    graph.arc_of_vertex.push_back(solid.surface.component[v] == 0 ? 0 : kNone);
+    graph.hub_of_vertex.push_back(solid.surface.component[v] == 0 ? kNone : 2);
+  }
+  const RoutingResult result = route_inside(graph, solid.hierarchy, solid.surface);
+  CHECK(result.hubs_moved == 1);
+  CHECK(result.unroutable == 0);
+  CHECK(crossings(graph, solid.hierarchy) == 0);
+  CHECK(solid.model(graph.hub_position[0]).x() < 1);
+}
+
+TEST_CASE("A hub outside goes into its own limb, however near another one is") {
+  // Two parallel tubes, joined far away.
+  BallGraph limbs;
+  limbs.blend = 0.02;
+  limbs.nodes = {{{0, 0, 0}, 0.3}, {{3, 0, 0}, 0.3}, {{3, 1, 0}, 0.3}, {{0, 1, 0}, 0.3}};
+  limbs.edges = {{0, 1}, {1, 2}, {2, 3}};
+  const Solid solid(to_mesh(skin_graph(limbs, 1500)));
+  ArcGraph graph;
+  graph.add_hub(solid.at({1.5, 0.55, 0}));  // nearer to the other tube
+  graph.add_hub(solid.at({2.8, 0, 0}));
+  line(graph, 0, 1);
+  graph.arc_of_vertex.assign(solid.surface.position.size(), kNone);
+  graph.hub_of_vertex.assign(solid.surface.position.size(), kNone);
+  for (Index v = 0; v < solid.surface.vertex_count(); ++v) {
+    const Vector3 x = solid.model(solid.surface.position[v]);
+    graph.hub_of_vertex[v] = x.y() < 0.45 && x.x() < 2 ? 0 : 1;
+  }
+  route_inside(graph, solid.hierarchy, solid.surface);
+  CHECK(solid.hierarchy.inside(graph.hub_position[0]));
+  CHECK(solid.model(graph.hub_position[0]).y() < 0.4);
+  CHECK(crossings(graph, solid.hierarchy) == 0);
+}

@@ -1,0 +1,85 @@
+// Arcs side by side become one, arcs round a hole stay two.
+#include "mspskel/arcs/zip_arcs.h"
+
+#include <catch2/catch.hpp>
+
+#include "mspskel/mesh/bounding_volume_hierarchy.h"
+#include "mspskel/samples/skin_graph.h"
+#include "support/arc_graphs.h"
+#include "support/solids.h"
+
+using namespace mspskel;
+using namespace mspskel::test;
+
+namespace {
+
+Index joint_count(const ArcGraph& graph) {
+  Index joints = 0;
+  for (const auto& arcs : graph.incidence()) joints += arcs.size() >= 3;
+  return joints;
+}
+
+}  // namespace
+
+TEST_CASE("Two arcs side by side in a tube become one") {
+  const Solid solid(tube(1, 12, 24, 24));
+  ArcGraph graph;
+  graph.add_hub(solid.at({0, 0, 5}));
+  graph.add_hub(solid.at({0, 0, 1}));
+  graph.add_hub(solid.at({0.15, 0, 11}));
+  graph.add_hub(solid.at({-0.15, 0, 10.8}));
+  for (Index tip = 1; tip < 4; ++tip) line(graph, 0, tip, 60);
+  map_to_nearest(graph, solid.surface.position);
+  CHECK(zip_arcs(graph, solid.surface, solid.hierarchy, {}) >= 1);
+  CHECK(living_arcs(graph) == 1);
+  CHECK(leaf_count(graph) == 2);
+  CHECK(map_is_partition(graph));
+  CHECK(crossings(graph, solid.hierarchy) == 0);
+}
+
+TEST_CASE("Arcs that part later are zipped up to where they part; arcs round a hole stay two") {
+  BallGraph fork;
+  fork.blend = 0;
+  fork.nodes = {{{0, 0, 0}, 0.5}, {{0, 0, 4}, 0.5}, {{2, 0, 6}, 0.4}, {{-2, 0, 6}, 0.4}};
+  fork.edges = {{0, 1}, {1, 2}, {1, 3}};
+  const Solid solid(to_mesh(skin_graph(fork, 1500)));
+  ArcGraph graph;
+  for (const Vector3& p : {Vector3(0, 0, 1), Vector3(0, 0, 0), Vector3(2, 0, 6), Vector3(-2, 0, 6)})
+    graph.add_hub(solid.at(p));
+  line(graph, 0, 1);
+  for (const double side : {1.0, -1.0}) {
+    const Vector3 bend = solid.at({0.1 * side, 0, 4});
+    const Index tip = side > 0 ? 2 : 3;
+    std::vector<Vector3> points = straight(graph.hub_position[0], bend, 40);
+    points.push_back(bend);
+    for (const Vector3& p : straight(bend, graph.hub_position[tip], 40)) points.push_back(p);
+    add_arc(graph, 0, tip, points);
+  }
+  map_to_nearest(graph, solid.surface.position);
+  REQUIRE(crossings(graph, solid.hierarchy) == 0);
+  CHECK(zip_arcs(graph, solid.surface, solid.hierarchy, {}) >= 1);
+  CHECK(joint_count(graph) == 1);
+  CHECK(leaf_count(graph) == 3);
+  CHECK(map_is_partition(graph));
+  CHECK(crossings(graph, solid.hierarchy) == 0);
+  const auto at = graph.incidence();
+  for (Index h = 0; h < graph.hub_count(); ++h)
+    if (at[h].size() == 3) CHECK(solid.model(graph.hub_position[h]).z() > 3.7);
+
+  const Solid ring(torus(1, 0.3, 40, 16));
+  ArcGraph round;
+  round.add_hub(ring.at({1, 0, 0}));
+  round.add_hub(ring.at({-1, 0, 0}));
+  round.add_hub(ring.at({1.2, 0, 0}));
+  for (const double side : {1.0, -1.0}) {
+    std::vector<Vector3> half;
+    for (int i = 1; i < 30; ++i)
+      half.push_back(ring.at({std::cos(kPi * i / 30), side * std::sin(kPi * i / 30), 0}));
+    add_arc(round, 0, 1, half);
+  }
+  line(round, 0, 2, 5);
+  map_to_nearest(round, ring.surface.position);
+  zip_arcs(round, ring.surface, ring.hierarchy, {});
+  CHECK(type_of(round) == GraphType{1, 1});
+  CHECK(crossings(round, ring.hierarchy) == 0);
+}

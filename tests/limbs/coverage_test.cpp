@@ -1,0 +1,90 @@
+// What the skeleton does not represent, and limbs that are found on sparse surfaces.
+#include "mspskel/limbs/coverage.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "mspskel/extract_skeleton.h"
+#include "mspskel/samples/skin_graph.h"
+#include "support/arc_graphs.h"
+#include "support/meshes.h"
+#include "support/solids.h"
+
+using namespace mspskel;
+using namespace mspskel::test;
+
+namespace {
+
+double length_of(const CurveSkeleton& skeleton, const std::vector<Index>& nodes) {
+  double length = 0;
+  for (std::size_t i = 1; i < nodes.size(); ++i)
+    length += (skeleton.nodes[nodes[i]].position - skeleton.nodes[nodes[i - 1]].position).norm();
+  return length;
+}
+
+// Without its longest branch that ends in a leaf and begins at a joint.
+CurveSkeleton without_a_limb(const CurveSkeleton& skeleton, Vector3& tip) {
+  const auto next = adjacency(skeleton);
+  std::vector<Index> longest;
+  for (const Branch& branch : branches(skeleton)) {
+    std::vector<Index> nodes = branch.nodes;
+    if (next[nodes.front()].size() != 1) std::reverse(nodes.begin(), nodes.end());
+    if (next[nodes.front()].size() != 1 || next[nodes.back()].size() < 3) continue;
+    if (length_of(skeleton, nodes) > length_of(skeleton, longest)) longest = nodes;
+  }
+  REQUIRE(longest.size() > 1);
+  tip = skeleton.nodes[longest.front()].position;
+  longest.pop_back();
+  std::vector<Index> moved(skeleton.nodes.size(), 0);
+  for (const Index n : longest) moved[n] = kNone;
+  CurveSkeleton rest;
+  for (std::size_t n = 0; n < moved.size(); ++n) {
+    if (moved[n] == kNone) continue;
+    moved[n] = static_cast<Index>(rest.nodes.size());
+    rest.nodes.push_back(skeleton.nodes[n]);
+  }
+  for (const auto& [a, b] : skeleton.edges)
+    if (moved[a] != kNone && moved[b] != kNone) rest.edges.push_back({moved[a], moved[b]});
+  return rest;
+}
+
+std::vector<UncoveredPart> uncovered(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton,
+                                     int threads = 0) {
+  return find_uncovered_parts(surface, BoundingVolumeHierarchy(surface), skeleton, {}, {threads, {}});
+}
+
+}  // namespace
+
+TEST_CASE("Nothing is uncovered where every limb has its arc, and a limb that loses it is, at its tip") {
+  const DefaultMesh mesh = to_mesh(skin_graph(tripod(), 3000));
+  const ExtractResult result = extract_skeleton(mesh);
+  CHECK(uncovered(result.surface, result.skeleton).empty());
+  Vector3 tip;
+  const CurveSkeleton rest = without_a_limb(result.skeleton, tip);
+  const std::vector<UncoveredPart> parts = uncovered(result.surface, rest);
+  REQUIRE(parts.size() == 1);
+  CHECK(parts[0].widths >= kMissedWidths);
+  CHECK((parts[0].position - tip).norm() < parts[0].depth / 4);
+  CHECK(uncovered(result.surface, rest, 1)[0].vertex == parts[0].vertex);
+  // It turns along.
+  const DefaultMesh turned = rotated(mesh, {1, 2, 3}, 1.1);
+  const ExtractResult other = extract_skeleton(turned);
+  CHECK(uncovered(other.surface, other.skeleton).empty());
+}
+
+TEST_CASE("Blocks and balls and plates have nothing that people would call a limb without an arc") {
+  for (const char* name : {"sphere", "prism", "plate", "cup"}) {
+    const ExtractResult result = extract_skeleton(sample(name, 4000));
+    CAPTURE(name);
+    CHECK(uncovered(result.surface, result.skeleton).empty());
+  }
+}
+
+TEST_CASE("Depth below the least one is none") {
+  const ExtractResult result = extract_skeleton(to_mesh(skin_graph(tripod(), 3000)));
+  Vector3 tip;
+  const CurveSkeleton rest = without_a_limb(result.skeleton, tip);
+  CoverageOptions deep;
+  deep.smallest = 1;
+  CHECK(find_uncovered_parts(result.surface, BoundingVolumeHierarchy(result.surface), rest, deep).empty());
+}

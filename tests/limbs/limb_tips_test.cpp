@@ -1,0 +1,222 @@
+// The tips of limbs: as many as there are limbs, at their ends, whatever the pose, the place and the
+// triangles.
+#include "mspskel/limbs/limb_tips.h"
+
+#include <algorithm>
+#include <array>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <set>
+
+#include "mspskel/mesh/coarsen_surface.h"
+#include "support/solids.h"
+
+using namespace mspskel;
+using namespace mspskel::test;
+
+namespace {
+
+std::vector<LimbTip> tips_of(const Solid& solid, double slenderness = LimbOptions().slenderness) {
+  LimbOptions options;
+  options.slenderness = slenderness;
+  return find_limb_tips(solid.surface, solid.hierarchy, solid.slices(), options);
+}
+
+}  // namespace
+
+TEST_CASE("Each limb of a tripod has a tip at its end") {
+  const BallGraph limbs = tripod();
+  for (const Index vertices : {400, 1200, 4000}) {
+    const Solid solid(to_mesh(skin_graph(limbs, vertices)));
+    const std::vector<LimbTip> tips = tips_of(solid);
+    REQUIRE(tips.size() == 3);
+    std::set<Index> reached;
+    for (const LimbTip& tip : tips) {
+      const Vector3 at = solid.model(solid.surface.position[tip.vertex]);
+      for (Index i = 1; i < 4; ++i)
+        if ((at - limbs.nodes[i].position).norm() < 1.1 * limbs.nodes[i].radius) reached.insert(i);
+      CHECK(tip.measures.depth > 0.2);
+      CHECK_FALSE(tip.cap.empty());
+    }
+    CHECK(reached.size() == 3);
+  }
+}
+
+TEST_CASE("Samples have the tips that they were made with") {
+  CHECK(tips_of(Solid(sample("octoped", 3000))).size() == 9);
+  CHECK(tips_of(Solid(sample("y-tube", 1500))).size() == 3);
+  CHECK(tips_of(Solid(sample("capsule", 1000))).size() == 2);
+}
+
+TEST_CASE("A shape without limbs has the ends of its longest way as tips, which are no limbs") {
+  const Solid solid(sphere(500));
+  const std::vector<LimbTip> tips = tips_of(solid);
+  REQUIRE(tips.size() == 2);
+  for (const LimbTip& tip : tips) {
+    CHECK(tip.kind == TipKind::kWayEnd);
+    CHECK_FALSE(tip.cap.empty());
+  }
+  const auto at = [&](int i) { return solid.surface.position[tips[i].vertex].normalized(); };
+  CHECK(at(0).dot(at(1)) < -0.95);
+}
+
+TEST_CASE("Fewer tips are limbs where more is asked") {
+  const Solid solid(to_mesh(skin_graph(tripod(), 1200)));
+  std::size_t before = solid.surface.position.size();
+  for (const double slenderness : {0.01, 0.3, 1.0, 3.0, 10.0, 100.0}) {
+    const std::vector<LimbTip> tips = tips_of(solid, slenderness);
+    const auto limbs = static_cast<std::size_t>(std::count_if(
+        tips.begin(), tips.end(), [](const LimbTip& tip) { return tip.kind == TipKind::kLimb; }));
+    CHECK(limbs <= before);
+    before = limbs;
+  }
+  CHECK(before == 0);
+}
+
+TEST_CASE("Tips stay the same vertices when the model is turned, moved and scaled") {
+  const DefaultMesh mesh = sample("octoped", 2600);
+  const DefaultMesh moved = translated(scaled(rotated(mesh, {0.3, -0.8, 0.5}, 1.1), 37.5), {10, -20, 5});
+  std::set<Index> here, there;
+  for (const LimbTip& tip : tips_of(Solid(mesh))) here.insert(tip.vertex);
+  for (const LimbTip& tip : tips_of(Solid(moved))) there.insert(tip.vertex);
+  CHECK(here == there);
+}
+
+TEST_CASE("Pieces have tips of their own, and nothing to measure gives none") {
+  PolygonSoup pair = skin_graph(tripod(), 1200);
+  const PolygonSoup one = pair;
+  const auto shift = static_cast<Index>(one.points.size());
+  for (const Vector3& p : one.points) pair.points.push_back(p + Vector3(0, 5, 0));
+  for (std::size_t f = 0; f < one.polygon_count(); ++f) {
+    for (Index c = one.begin[f]; c < one.begin[f + 1]; ++c) pair.corners.push_back(one.corners[c] + shift);
+    pair.begin.push_back(static_cast<Index>(pair.corners.size()));
+  }
+  const Solid solid(to_mesh(pair));
+  std::array<int, 2> count{0, 0};
+  for (const LimbTip& tip : tips_of(solid)) ++count[solid.surface.component[tip.vertex]];
+  CHECK(count == std::array<int, 2>{3, 3});
+  CHECK(find_limb_tips(solid.surface, solid.hierarchy, solid.no_slices(), {}).empty());
+}
+
+TEST_CASE("The corners of a block are no limbs") {
+  for (const LimbTip& tip : tips_of(Solid(prism(4, 1.5, 13)))) CHECK(tip.kind == TipKind::kWayEnd);
+}
+
+TEST_CASE("A limb's slenderness is its length over its radius, however fine the triangles are") {
+  for (const Index vertices : {800, 4000}) {
+    BallGraph star;
+    star.blend = 0;
+    star.nodes = {{{0, 0, 0}, 0.3}, {{0, 0, 3}, 0.3}, {{4, 0, 0}, 0.3}, {{-2, 0, 0}, 0.3}, {{0, 5, 0}, 0.3}};
+    star.edges = {{0, 1}, {0, 2}, {0, 3}, {0, 4}};
+    const Solid solid(to_mesh(skin_graph(star, vertices)));
+    const std::vector<LimbTip> tips = tips_of(solid);
+    REQUIRE(tips.size() == 4);
+    const auto like_a_tube = std::count_if(tips.begin(), tips.end(), [&](const LimbTip& tip) {
+      const double depth = tip.measures.depth * solid.surface.frame.scale;
+      return std::abs(tip.measures.slenderness / (depth / 0.3) - 1) < 0.15;
+    });
+    CHECK(like_a_tube == 4);
+  }
+}
+
+TEST_CASE("Small ears count on a body with limbs, and no bump of a body without") {
+  BallGraph bear;
+  bear.blend = 0.05;
+  bear.nodes = {{{0, 0, 0}, 1.0},       {{0, 0, 1.6}, 0.8},     {{3, 0, 0.5}, 0.4},
+                {{-3, 0, 0.5}, 0.4},    {{1.2, 0, -3}, 0.45},   {{-1.2, 0, -3}, 0.45},
+                {{0.62, 0, 2.3}, 0.22}, {{0.95, 0, 2.75}, 0.2}, {{-0.62, 0, 2.3}, 0.22},
+                {{-0.95, 0, 2.75}, 0.2}};
+  bear.edges = {{0, 1}, {0, 2}, {0, 3}, {0, 4}, {0, 5}, {6, 7}, {8, 9}, {1, 6}, {1, 8}};
+  const Solid solid(to_mesh(skin_graph(bear, 4000)));
+  std::set<Index> reached;
+  for (const LimbTip& tip : tips_of(solid))
+    for (const Index i : {2, 3, 4, 5, 7, 9})
+      if ((solid.model(tip.position) - bear.nodes[i].position).norm() < 0.6) reached.insert(i);
+  CHECK(reached.size() == 6);
+
+  LimbMeasures bump;
+  bump.depth = bump.half_width = bump.carrier_half_chord = 1;
+  bump.slenderness = 0.6;
+  bump.msp_ratio = 4;
+  CHECK(is_ear(bump, {}));
+  CHECK_FALSE(is_limb(bump, {}));
+  bump.carrier_half_chord = 0.5;  // wider than what carries it is thick: the corner of a plate
+  CHECK_FALSE(is_ear(bump, {}));
+}
+
+TEST_CASE("A handle without limbs has no tips: the loop is its skeleton") {
+  CHECK(tips_of(Solid(torus(3, 1, 60, 24))).empty());
+}
+
+TEST_CASE(
+    "The bow of a handle is no limb, however slender, and the foot opposite to the only limb has a tip") {
+  BallGraph jug;
+  jug.blend = 0.1;
+  jug.nodes = {{{0, 0, 0}, 1.5},    {{0, 0, 4}, 0.4},     {{1, 0, 0.6}, 0.25},
+               {{2.6, 0, 1}, 0.25}, {{2.6, 0, -1}, 0.25}, {{1, 0, -0.6}, 0.25}};
+  jug.edges = {{0, 1}, {2, 3}, {3, 4}, {4, 5}, {0, 2}, {0, 5}};
+  const Solid solid(to_mesh(skin_graph(jug, 4000)));
+  for (const LimbTip& tip : tips_of(solid)) {
+    const Vector3 at = solid.model(tip.position);
+    if (tip.kind == TipKind::kLimb) CHECK((at - jug.nodes[1].position).norm() < 0.6);
+    CHECK(at.x() < 1.6);
+  }
+}
+
+TEST_CASE("The handle of a hammer is a limb, and both ends of its head have tips") {
+  for (const double handle : {3.0, 6.0, 12.0}) {
+    BallGraph hammer;
+    hammer.blend = 0;
+    hammer.nodes = {{{0, 0, 0}, 0.8}, {{1.6, 0, 0}, 0.8}, {{-1.6, 0, 0}, 0.8}, {{0, 0, -handle}, 0.3}};
+    hammer.edges = {{0, 1}, {0, 2}, {0, 3}};
+    const Solid solid(to_mesh(skin_graph(hammer, 4000)));
+    std::set<Index> reached;
+    for (const LimbTip& tip : tips_of(solid))
+      for (const Index i : {1, 2, 3})
+        if ((solid.model(tip.position) - hammer.nodes[i].position).norm() < 1.2 * hammer.nodes[i].radius) {
+          reached.insert(i);
+          if (i == 3) CHECK(tip.kind == TipKind::kLimb);
+        }
+    CHECK(reached.size() == 3);
+  }
+}
+
+TEST_CASE("A knob on the farthest limb hides neither that limb nor the others") {
+  BallGraph limbs = tripod();
+  limbs.nodes.push_back({{0.75, 0, 2.9}, 0.12});
+  limbs.edges.push_back({1, static_cast<Index>(limbs.nodes.size()) - 1});
+  const Solid solid(to_mesh(skin_graph(limbs, 4000)));
+  std::set<Index> reached;
+  for (const LimbTip& tip : tips_of(solid))
+    for (Index i = 1; i < 4; ++i)
+      if ((solid.model(tip.position) - limbs.nodes[i].position).norm() < 1.5) reached.insert(i);
+  CHECK(reached.size() == 3);
+}
+
+TEST_CASE("Leaves are aimed at the middle of a limb's end, inside the solid") {
+  const Solid solid(to_mesh(skin_graph(tripod(), 4000)));
+  for (const LimbTip& tip : tips_of(solid)) {
+    CHECK((tip.target - tip.position).norm() < 0.5 * 0.4 / solid.surface.frame.scale);
+    CHECK((tip.target == tip.position ||
+           (solid.hierarchy.inside(tip.target) &&
+            solid.hierarchy.distance(tip.target) > 0.04 * tip.measures.half_width)));
+  }
+}
+
+TEST_CASE("Tips of a finer surface keep their places on the coarser one") {
+  const Solid solid(sample("octoped", 3000));
+  CoarseningOptions options;
+  options.vertices = 800;
+  const CoarseSurface coarse = coarsen_surface(solid.surface, options);
+  const std::vector<LimbTip> fine = tips_of(solid);
+  const std::vector<LimbTip> tips = on_coarser_surface(fine, coarse.coarse_vertex);
+  REQUIRE(tips.size() == fine.size());
+  for (std::size_t i = 0; i < tips.size(); ++i) {
+    CHECK(tips[i].position == fine[i].position);
+    CHECK(tips[i].vertex == coarse.coarse_vertex[fine[i].vertex]);
+    CHECK(std::is_sorted(tips[i].cap.begin(), tips[i].cap.end()));
+    CHECK_FALSE(tips[i].cap.empty());
+    for (const Index v : fine[i].cap)
+      CHECK(std::binary_search(tips[i].cap.begin(), tips[i].cap.end(), coarse.coarse_vertex[v]));
+  }
+}

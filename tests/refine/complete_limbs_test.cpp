@@ -1,0 +1,126 @@
+// Limbs without an arc get one, each once.
+#include "mspskel/refine/complete_limbs.h"
+
+#include <catch2/catch.hpp>
+
+#include "mspskel/limbs/limb_tips.h"
+#include "mspskel/mesh/bounding_volume_hierarchy.h"
+#include "mspskel/refine/detail/arc_leaves.h"
+#include "mspskel/refine/prune_branches.h"
+#include "mspskel/refine/refine_arcs.h"
+#include "mspskel/samples/skin_graph.h"
+#include "refine/tripod_arcs.h"
+#include "support/arc_graphs.h"
+#include "support/solids.h"
+
+using namespace mspskel;
+using namespace mspskel::test;
+
+TEST_CASE("A limb without an arc gets one, and nothing is added where all have theirs") {
+  const Solid solid(to_mesh(skin_graph(tripod(), 1200)));
+  const VertexSlices slices = solid.slices();
+  std::vector<LimbTip> tips = tripod_tips(solid);
+  ArcGraph whole = tripod_arcs(solid, 0.97);
+  CHECK(complete_limbs(whole, solid.surface, solid.hierarchy, tips, {}, 0.01) == 0);
+  ArcGraph graph = whole;
+  remove_leaf_arc(graph, 2, 0);
+  dissolve_through_hubs(graph);
+  CHECK(complete_limbs(graph, solid.surface, solid.hierarchy, tips, {}, 0.01) == 1);
+  CHECK(leaf_count(graph) == 3);
+  CHECK(type_of(graph) == GraphType{1, 0});
+  CHECK(arcs_meet_hubs(graph));
+  CHECK(map_is_partition(graph));
+  CHECK(crossings(graph, solid.hierarchy) == 0);
+  double nearest = 10;
+  const auto at = graph.incidence();
+  for (Index h = 0; h < graph.hub_count(); ++h)
+    if (at[h].size() == 1)
+      nearest = std::min(nearest, (solid.model(graph.hub_position[h]) - tripod().nodes[3].position).norm());
+  CHECK(nearest < 0.5);
+}
+
+TEST_CASE("What no arc comes near gets an arc and a tip, whatever other limbs were told") {
+  BallGraph horned = tripod();
+  horned.nodes.push_back({{0, 0, 1.5}, 0.2});
+  horned.nodes.push_back({{0, 1.2, 1.5}, 0.15});
+  horned.edges.push_back({4, 5});
+  const Solid solid(to_mesh(skin_graph(horned, 2500)));
+  ArcGraph graph = tripod_arcs(solid, 0.97);
+  std::vector<LimbTip> tips = find_limb_tips(solid.surface, solid.hierarchy, solid.slices(), {});
+  const auto is_horn = [&](const LimbTip& tip) {
+    return (solid.model(tip.position) - horned.nodes[5].position).norm() < 0.4;
+  };
+  tips.erase(std::remove_if(tips.begin(), tips.end(), is_horn), tips.end());
+  REQUIRE(tips.size() == 3);
+  ArcGraph limbless = graph;
+  std::vector<LimbTip> none;
+  CHECK(complete_limbs(limbless, solid.surface, solid.hierarchy, none, {}, 0.01) == 1);
+  CHECK(complete_limbs(graph, solid.surface, solid.hierarchy, tips, {}, 0.01) == 1);
+  CHECK(leaf_count(graph) == 4);
+  REQUIRE(tips.size() == 4);
+  CHECK(is_horn(tips.back()));
+  CHECK(crossings(graph, solid.hierarchy) == 0);
+  CHECK(map_is_partition(graph));
+}
+
+TEST_CASE("A leaning horn that no arc comes near is reached to its tip") {
+  BallGraph leaning;
+  leaning.blend = 0.05;
+  leaning.nodes = {{{0, 0, -3}, 0.5}, {{0, 0, 3}, 0.5}, {{0, 0, 0}, 0.12}, {{0, 1.5, 1.5}, 0.09}};
+  leaning.edges = {{0, 1}, {2, 3}};
+  const Solid solid(to_mesh(skin_graph(leaning, 4000)));
+  const auto of_horn = [&](const LimbTip& tip) {
+    return (solid.model(tip.position) - leaning.nodes[3].position).norm() < 0.3;
+  };
+  std::vector<LimbTip> tips = find_limb_tips(solid.surface, solid.hierarchy, solid.slices(), {});
+  tips.erase(std::remove_if(tips.begin(), tips.end(), of_horn), tips.end());
+  REQUIRE(tips.size() == 2);
+  for (const Index count : {300, 700}) {
+    ArcGraph graph;
+    graph.add_hub(solid.at({0, 0, -3}));
+    graph.add_hub(solid.at({0, 0, 3}));
+    line(graph, 0, 1, count);
+    map_to_nearest(graph, solid.surface.position);
+    std::vector<LimbTip> found = tips;
+    CHECK(complete_limbs(graph, solid.surface, solid.hierarchy, found, {}, 0.008) == 1);
+    CHECK(of_horn(found.back()));
+    CHECK((solid.model(graph.hub_position.back()) - leaning.nodes[3].position).norm() < 0.3);
+  }
+}
+
+TEST_CASE("Vertices without faces are no limb's") {
+  DefaultMesh mesh = to_mesh(skin_graph(tripod(), 1200));
+  mesh.add_vertex({9, 9, 9});
+  const Solid solid(mesh);
+  REQUIRE(solid.surface.component.back() == kNone);
+  ArcGraph graph = tripod_arcs(solid, 0.97);
+  graph.arc_of_vertex.back() = graph.hub_of_vertex.back() = kNone;
+  std::vector<LimbTip> tips = tripod_tips(solid);
+  CHECK(complete_limbs(graph, solid.surface, solid.hierarchy, tips, {}, 0.01) == 0);
+}
+
+TEST_CASE("No place is completed twice") {
+  for (const std::string name : {"plate", "quadruped", "octoped"}) {
+    const Solid solid(sample(name, 3200));
+    const auto middle = solid.hierarchy.first_hit(solid.surface.position[0] - 1e-6 * solid.surface.normal[0],
+                                                  -solid.surface.normal[0]);
+    REQUIRE(middle);
+    ArcGraph graph;
+    graph.add_hub(solid.surface.position[0] - 0.4 * middle->distance * solid.surface.normal[0]);
+    graph.add_hub(solid.surface.position[0] - 0.6 * middle->distance * solid.surface.normal[0]);
+    line(graph, 0, 1);
+    map_to_nearest(graph, solid.surface.position);
+    LimbOptions lenient;
+    lenient.slenderness = 0.2;
+    std::vector<LimbTip> tips = find_limb_tips(solid.surface, solid.hierarchy, solid.slices(), lenient);
+    complete_limbs(graph, solid.surface, solid.hierarchy, tips, lenient, 0.01);
+    const auto at = graph.incidence();
+    std::vector<Vector3> ends;
+    for (Index h = 2; h < graph.hub_count(); ++h)
+      if (at[h].size() == 1) ends.push_back(graph.hub_position[h]);
+    INFO(name << ", " << ends.size() << " ends");
+    CHECK_FALSE(ends.empty());
+    for (std::size_t i = 0; i < ends.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j) CHECK((ends[i] - ends[j]).norm() > 1e-3);
+  }
+}

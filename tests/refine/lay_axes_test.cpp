@@ -1,0 +1,115 @@
+// Straight arcs for solids without limbs.
+#include "mspskel/refine/lay_axes.h"
+
+#include <catch2/catch.hpp>
+
+#include "mspskel/extract_skeleton.h"
+#include "mspskel/mesh/detail/solid_moments.h"
+#include "support/arc_graphs.h"
+#include "support/solids.h"
+
+using namespace mspskel;
+using namespace mspskel::test;
+
+namespace {
+
+// One crooked arc that stands for the whole surface.
+ArcGraph crooked(const Solid& solid) {
+  ArcGraph graph;
+  graph.add_hub(solid.surface.position.front() * 0.5);
+  graph.add_hub(solid.surface.position.back() * 0.5);
+  graph.arcs.push_back({{0, 1}, graph.hub_position, true});
+  graph.arc_of_vertex.assign(solid.surface.position.size(), 0);
+  graph.hub_of_vertex.assign(solid.surface.position.size(), kNone);
+  return graph;
+}
+
+// Both meshes as one.
+DefaultMesh beside(DefaultMesh a, const DefaultMesh& b) {
+  std::vector<DefaultMesh::VertexHandle> corner;
+  for (const auto v : b.vertices()) corner.push_back(a.add_vertex(b.point(v)));
+  for (const auto f : b.faces()) {
+    std::vector<DefaultMesh::VertexHandle> face;
+    for (const auto v : b.fv_range(f)) face.push_back(corner[static_cast<std::size_t>(v.idx())]);
+    a.add_face(face);
+  }
+  return a;
+}
+
+}  // namespace
+
+TEST_CASE("A block gets one arc along its axis, whatever the collapse made of it") {
+  for (const double angle : {0.0, 0.7}) {
+    const Vector3 turn(0.2, 1, -0.4);
+    const Solid solid(rotated(prism(4, 5, 9), turn, angle));
+    ArcGraph graph = crooked(solid);
+    REQUIRE(lay_axes(graph, solid.surface, solid.hierarchy, {}) == 1);
+    CHECK(homotopy_type(graph) == ArcGraphType{1, 0});
+    const Arc& axis = graph.arcs.back();
+    REQUIRE(axis.alive);
+    const Vector3 along = (axis.points.back() - axis.points.front()).normalized();
+    const Vector3 expected = Eigen::AngleAxisd(angle, turn.normalized()) * Vector3::UnitZ();
+    CHECK(std::abs(along.dot(expected)) == Approx(1).epsilon(1e-6));
+    for (const Vector3& x : axis.points) CHECK(solid.hierarchy.inside(x));
+    // The prism has radius 1 and length 5, so its inner radius is 1/√2; the ends stop half of that before it
+    // ends.
+    const double length = (axis.points.back() - axis.points.front()).norm() * solid.surface.frame.scale;
+    CHECK(length == Approx(5 - 1 / std::sqrt(2.0)).epsilon(1e-6));
+    for (const Index a : graph.arc_of_vertex) CHECK(a == graph.arc_count() - 1);
+  }
+}
+
+TEST_CASE("Every block gets an axis of its own") {
+  const Solid pair(beside(prism(4, 5, 9), translated(prism(4, 5, 9), {20, 0, 0})));
+  REQUIRE(pair.surface.component_count == 2);
+  ArcGraph graph;
+  graph.arc_of_vertex.assign(pair.surface.position.size(), kNone);
+  graph.hub_of_vertex = pair.surface.component;
+  for (Index v = 0; v < pair.surface.vertex_count(); ++v)
+    if (graph.hub_count() == pair.surface.component[v]) graph.add_hub(pair.surface.position[v]);
+  CHECK(lay_axes(graph, pair.surface, pair.hierarchy, {}) == 2);
+  CHECK(homotopy_type(graph) == ArcGraphType{2, 0});
+  for (Index v = 0; v < pair.surface.vertex_count(); ++v)
+    CHECK(graph.arc_of_vertex[v] == pair.surface.component[v]);
+}
+
+TEST_CASE("What has limbs, a handle, or air in its middle keeps its arcs") {
+  const Solid block(prism(4, 5, 9));
+  ArcGraph graph = crooked(block);
+  LimbTip limb;
+  limb.vertex = 0;
+  CHECK(lay_axes(graph, block.surface, block.hierarchy, {limb}) == 0);
+  CHECK(graph.arcs.front().alive);
+  const Solid ring(torus(3, 1, 40, 20));
+  graph = crooked(ring);
+  CHECK(lay_axes(graph, ring.surface, ring.hierarchy, {}) == 0);
+  CHECK(graph.arcs.front().alive);
+}
+
+TEST_CASE("What is longer than wide has its axis along its length, however flat it is") {
+  for (const Vector3& sides : {Vector3(3, 2, 1), Vector3(5, 4, 1), Vector3(10, 5, 2)}) {
+    DefaultMesh ellipsoid = sphere(1200);
+    for (const auto v : ellipsoid.vertices())
+      ellipsoid.set_point(v, {ellipsoid.point(v)[0] * sides.x(), ellipsoid.point(v)[1] * sides.y(),
+                              ellipsoid.point(v)[2] * sides.z()});
+    const Vector3 axis = detail::solid_moments(make_snapshot(ellipsoid))[0].axis();
+    CHECK(std::abs(axis.x()) > 0.999);
+  }
+}
+
+TEST_CASE("The skeleton of a block does not depend on its triangles") {
+  const auto ends = [](Index rings) {
+    const ExtractResult result = extract_skeleton(prism(4, 1.7, rings));
+    CHECK(result.refinement.axes == 1);
+    std::vector<double> heights;
+    for (const auto& node : result.skeleton.nodes) {
+      CHECK(std::hypot(node.position.x(), node.position.y()) < 0.02);
+      heights.push_back(node.position.z());
+    }
+    const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
+    return std::array<double, 2>{*low, *high};
+  };
+  const auto coarse = ends(9), fine = ends(13);
+  CHECK(coarse[0] == Approx(fine[0]).margin(0.02));
+  CHECK(coarse[1] == Approx(fine[1]).margin(0.02));
+}
