@@ -1,7 +1,6 @@
 // What a node of the collapsing skeleton mesh knows of the vertices that merged into it: sums only.
 #pragma once
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 
@@ -71,15 +70,7 @@ class MergingSet {
   double perimeter() const { return weight_ > 0 ? perimeter_ / weight_ : 0.0; }  // MSP(u); 0: no slice at all
   Vector3 position() const { return weight_ > 0 ? Vector3(position_ / weight_) : position_; }  // Eq. 4.6
   // N_s(u): the principal eigenvector of Σ w n nᵀ, unit, of no particular sign; zero without any normal.
-  Vector3 axis() const {
-    const auto& [xx, yy, zz, xy, xz, yz] = axis_;
-    if (!(xx + yy + zz > 0)) return Vector3::Zero();
-    Eigen::Matrix3d sum;
-    sum << xx, xy, xz, xy, yy, yz, xz, yz, zz;
-    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-    solver.computeDirect(sum);
-    return solver.eigenvectors().col(2);
-  }
+  Vector3 axis() const;
 
  private:
   enum class Kind : unsigned char { kNoSlice, kUnweighted, kWeighted };
@@ -99,3 +90,7 @@ class MergingSet {
 };
 
 }  // namespace mspskel
+
+#ifndef MSPSKEL_COMPILED
+#include "mspskel/collapse/detail/merging_set_impl.h"
+#endif
