@@ -90,7 +90,7 @@ int CheckCommand::run() {
   const VolumeCocycles cocycles = compute_volume_cocycles(surface, {}, cocycle_options_);
   SkeletonChecks checks = check_skeleton(surface, solid, skeleton, execution_);
   const TopologyCertificate certificate =
-      certify(surface, cocycles, solid, skeleton, CertificateDepth::kFull);
+      certify(surface, cocycles, solid, skeleton, CertificateDepth::kFull, execution_);
   checks.genus -= certificate.small_handles;
   checks.topology = checks.b0 == checks.components && checks.b1 == checks.genus;
   const std::vector<UncoveredPart> uncovered =

@@ -188,7 +188,8 @@ Extraction extract_and_check(const ExtractSettings& settings, const Cancellation
   extraction.reported = !settings.report.empty() || settings.verbose || writes_report(settings);
   if (!settings.segments.empty()) segment(settings, extraction);
   if (settings.needs_rig()) add_rig(settings, extraction);
-  certify(extraction.made, extraction.reported ? CertificateDepth::kFull : CertificateDepth::kVerdict);
+  certify(extraction.made, extraction.reported ? CertificateDepth::kFull : CertificateDepth::kVerdict,
+          settings.run.extract.execution);
   if (extraction.reported) extraction.facts = facts_of(settings.input, extraction.made);
   return extraction;
 }

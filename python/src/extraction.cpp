@@ -66,7 +66,7 @@ std::unique_ptr<Extraction> extract(const PolygonSoup& soup, const std::string& 
     cli::MeshInput input = cli::prepare_mesh(soup, options.run.repair);
     extraction->seconds.read = total.seconds();
     extraction->made = cli::extract_from(std::move(input), options.run.extract);
-    certify(extraction->made, cli::CertificateDepth::kVerdict);
+    certify(extraction->made, cli::CertificateDepth::kVerdict, options.run.extract.execution);
     if (!extraction->made.failure.empty() && !options.keep_failed)
       throw NoSkeletonError(extraction->made.failure + " (keep_failed=True returns it all the same)");
     extraction->skeleton = extraction->made.input.of_file(extraction->made.result.skeleton);

@@ -1,24 +1,19 @@
 #include "certificate.h"
 
 #include "mspskel/io/write_skeleton.h"
+#include "mspskel/skeleton/polyline_graph.h"
 
 namespace mspskel::cli {
 
 TopologyCertificate certify(const SurfaceSnapshot& surface, const VolumeCocycles& cocycles,
                             const BoundingVolumeHierarchy& hierarchy, const CurveSkeleton& skeleton,
-                            CertificateDepth depth) {
+                            CertificateDepth depth, const Execution& execution) {
   refuse_not_finite(skeleton);
-  PolylineGraph graph;
-  for (const SkeletonNode& node : skeleton.nodes)
-    graph.position.push_back(surface.frame.to_normalised(node.position));
-  graph.edges = skeleton.edges;
-  if (!skeleton.node_of_vertex.empty())
-    graph.component =
-        component_of_nodes(surface, static_cast<Index>(skeleton.nodes.size()), skeleton.node_of_vertex);
   CertificateOptions options;
   // Whether the surface crosses itself decides between "proved" and "kept", never over "failed".
   if (depth == CertificateDepth::kVerdict) options.self_intersecting = false;
-  return certify_topology(surface, cocycles, hierarchy, graph, options);
+  return certify_topology(surface, cocycles, hierarchy, polyline_graph(surface, skeleton), options,
+                          execution);
 }
 
 Json certificate_json(const TopologyCertificate& c) {

@@ -15,10 +15,10 @@ enum class CertificateDepth {
 };
 
 // `hierarchy` is that of the surface; the skeleton is in model units and may lack its surface map. Throws
-// NoSkeletonError if a number of the skeleton is not finite.
+// NoSkeletonError if a number of the skeleton is not finite; Cancelled.
 TopologyCertificate certify(const SurfaceSnapshot& surface, const VolumeCocycles& cocycles,
                             const BoundingVolumeHierarchy& hierarchy, const CurveSkeleton& skeleton,
-                            CertificateDepth depth);
+                            CertificateDepth depth, const Execution& execution = {});
 
 Json certificate_json(const TopologyCertificate& certificate);
 

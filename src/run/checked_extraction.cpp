@@ -29,12 +29,14 @@ CheckedExtraction extract_from(MeshInput input, const ExtractOptions& options) {
   return made;
 }
 
-void certify(CheckedExtraction& made, CertificateDepth depth) {
+void certify(CheckedExtraction& made, CertificateDepth depth, const Execution& execution) {
   const Stopwatch checking;
   ExtractResult& result = made.result;
-  if (!result.solid) result.solid = std::make_shared<const BoundingVolumeHierarchy>(result.surface);
-  made.certificate = certify(result.surface, result.cocycles, *result.solid, result.skeleton, depth);
-  made.uncovered = find_uncovered_parts(result.surface, *result.solid, result.skeleton);
+  if (!result.solid)
+    result.solid = std::make_shared<const BoundingVolumeHierarchy>(result.surface, execution.progress);
+  made.certificate =
+      certify(result.surface, result.cocycles, *result.solid, result.skeleton, depth, execution);
+  made.uncovered = find_uncovered_parts(result.surface, *result.solid, result.skeleton, {}, execution);
   result.seconds.emplace_back("checks", checking.seconds());
   Verdict verdict = judge(result.surface, made.certificate, made.uncovered);
   result.warnings.insert(result.warnings.end(), verdict.warnings.begin(), verdict.warnings.end());

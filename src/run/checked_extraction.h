@@ -25,7 +25,8 @@ struct CheckedExtraction {
 CheckedExtraction extract_from(MeshInput input, const ExtractOptions& options);
 
 // Fills in certificate, uncovered parts and failure, adds what they warn of, and the seconds that it took.
-void certify(CheckedExtraction& made, CertificateDepth depth);
+// Throws Cancelled.
+void certify(CheckedExtraction& made, CertificateDepth depth, const Execution& execution = {});
 
 // make_report with what mending did.
 Json facts_of(const std::string& file, const CheckedExtraction& made);

@@ -129,7 +129,7 @@ void CommandLine::refuse_unknown() const {
   std::vector<std::string> unknown = app_.remaining();
   // The mark after which all words are arguments counts as one that is left over.
   const auto mark = std::find(unknown.begin(), unknown.end(), "--");
-  const bool is_argument = mark == unknown.begin() || unknown.front().front() != '-';
+  const bool is_argument = mark == unknown.begin() || unknown.front().compare(0, 1, "-") != 0;
   if (mark != unknown.end()) unknown.erase(mark);
   if (unknown.empty()) return;
   const std::string word = unknown.front().substr(0, unknown.front().find('='));

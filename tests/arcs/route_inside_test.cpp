@@ -2,6 +2,7 @@
 #include "mspskel/arcs/route_inside.h"
 
 #include <catch2/catch.hpp>
+#include <type_traits>
 
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/samples/skin_graph.h"
@@ -10,6 +11,20 @@
 
 using namespace mspskel;
 using namespace mspskel::test;
+
+// Paths of any surface are no way to the vertices of the one that a graph's map is of.
+static_assert(!std::is_convertible_v<mspskel::detail::InnerPaths&, mspskel::detail::InnerGraph&>);
+
+TEST_CASE("A map of another surface's vertices is refused before anything is read from it") {
+  const Solid coarse(sphere(200)), fine(sphere(800));
+  ArcGraph graph;
+  graph.add_hub(Vector3(2, 0, 0));  // outside
+  graph.arc_of_vertex.assign(coarse.surface.position.size(), kNone);
+  graph.hub_of_vertex.assign(coarse.surface.position.size(), 0);
+  CHECK_THROWS_WITH(route_inside(graph, fine.hierarchy, fine.surface),
+                    Catch::Contains("the graph's map is of"));
+  CHECK(route_inside(graph, coarse.hierarchy, coarse.surface).hubs_moved == 1);
+}
 
 TEST_CASE("An arc across the hole of a torus comes back through the ring") {
   const Solid solid(torus(1, 0.3, 40, 16));

@@ -55,6 +55,9 @@ class Usage(ProgramTest):
         self.assertIn("absent", self.fail_with(READ, "check", "--", "absent.off", "a.skel"))
         self.assertIn("too many", self.fail_with(USAGE, "check", "--", "a", "b", "--json"))
 
+    def test_an_empty_word_is_an_argument(self):
+        self.assertIn("too many", self.fail_with(USAGE, "info", "a.off", ""))
+
     def test_unknown_sample(self):
         self.assertIn("did you mean torus?", self.fail_with(USAGE, "sample", "toros"))
         self.assertIn("--help", self.fail_with(USAGE, "sample", "xylophone"))

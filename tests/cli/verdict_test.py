@@ -59,6 +59,22 @@ class Check(ProgramTest):
                                     "--least-inside", 0.5).returncode, DONE)
 
 
+class Shells(ProgramTest):
+    def test_both_commands_measure_a_piece_in_the_solid_of_its_component(self):
+        # A ball with a hollow. The .skel file does not say which piece is whose.
+        mesh = self.sample("shell", 1200)
+        result = self.run_program(mesh, "k.skel", "--report", "r.json")
+        self.assertEqual(result.returncode, DONE, result.stderr)
+        with open(self.folder / "r.json", encoding="utf-8") as file:
+            made = json.load(file)["checks"]
+        result = self.run_program("check", mesh, "k.skel", "--json", "-")
+        self.assertEqual(result.returncode, DONE, result.stderr)
+        found = json.loads(result.stdout)
+        for key in ("topology", "nested_components", "inside", "edges_not_inside", "crossing_rank"):
+            self.assertEqual(found["certificate"][key], made[key], key)
+        self.assertEqual((found["inside"], found["contained"]), (1, True))
+
+
 class SmallHandles(ProgramTest):
     def test_skeleton_without_them_is_right_by_the_same_option(self):
         self.run_program("sample", "plate", "plate.off", "--count", 4, "--resolution", 1500)

@@ -12,6 +12,7 @@
 #include "mspskel/collapse/topology_certificate.h"
 #include "mspskel/mesh/build_mesh.h"
 #include "mspskel/mesh/mesh_report.h"
+#include "mspskel/skeleton/polyline_graph.h"
 #include "mspskel/skeleton/surface_map.h"
 
 namespace mspskel::fuzz {
@@ -81,10 +82,7 @@ inline std::vector<Index> node_components(const ExtractResult& result) {
 // The certificate agrees with the counts, and fails nothing without a warning.
 inline TopologyCertificate check_certificate(const ExtractResult& result,
                                              const std::vector<Index>& component) {
-  PolylineGraph graph;
-  for (const SkeletonNode& node : result.skeleton.nodes)
-    graph.position.push_back(result.surface.frame.to_normalised(node.position));
-  graph.edges = result.skeleton.edges;
+  PolylineGraph graph = polyline_graph(result.surface, result.skeleton);
   graph.component = component;
   const TopologyCertificate certificate =
       certify_topology(result.surface, result.cocycles, BoundingVolumeHierarchy(result.surface), graph);

@@ -88,3 +88,42 @@ TEST_CASE("Depth below the least one is none") {
   deep.smallest = 1;
   CHECK(find_uncovered_parts(result.surface, BoundingVolumeHierarchy(result.surface), rest, deep).empty());
 }
+
+TEST_CASE("A spike without area is no part, and no number is infinite") {
+  PolygonSoup soup = to_soup(tube(0.3, 1.0, 12, 20));
+  Eigen::AlignedBox3d box;
+  for (const Vector3& p : soup.points) box.extend(p);
+  // Beyond its middle the tube has no width.
+  for (Vector3& p : soup.points)
+    if (p.z() > box.center().z()) p.x() = p.y() = 0;
+  const ExtractResult result = extract_skeleton(to_mesh(soup));
+  CurveSkeleton half;  // a ball at the other end
+  half.nodes.emplace_back();
+  half.nodes[0].position = Vector3(0, 0, box.min().z() + 0.2);
+  for (const CurveSkeleton& skeleton : {result.skeleton, half})
+    for (const UncoveredPart& part : uncovered(result.surface, skeleton)) {
+      CHECK(std::isfinite(part.widths));
+      CHECK(std::isfinite(part.depth));
+    }
+}
+
+TEST_CASE("What the balls of another component reach is not covered by them") {
+  // A needle inside a ball that is turned the same way: the ball's own ball covers all of it.
+  PolygonSoup both = to_soup(sphere(800)), needle = to_soup(tube(0.05, 1.2, 12, 40));
+  Eigen::AlignedBox3d box;
+  for (const Vector3& p : needle.points) box.extend(p);
+  for (Vector3& p : needle.points) p -= box.center();
+  append(both, needle);
+  const SurfaceSnapshot surface = make_snapshot(to_mesh(both));
+  CurveSkeleton skeleton;
+  skeleton.nodes.resize(3);
+  skeleton.nodes[1].position = Vector3(0, 0, -0.5);  // at one end of the needle
+  skeleton.nodes[2].position = Vector3(0, 0, -0.45);
+  skeleton.edges = {{1, 2}};
+  skeleton.node_of_vertex.assign(both.points.size(), 1);
+  for (Index v = 0; v < surface.vertex_count(); ++v)
+    if (surface.component[v] == 0) skeleton.node_of_vertex[v] = 0;
+  const std::vector<UncoveredPart> parts = uncovered(surface, skeleton);
+  REQUIRE(parts.size() == 1);
+  CHECK(parts[0].position.z() == Approx(0.6).epsilon(0.05));
+}

@@ -178,3 +178,10 @@ TEST_CASE("boxes are searched completely") {
     }
   }
 }
+
+TEST_CASE("making a hierarchy can be cancelled") {
+  const SurfaceSnapshot s = snapshot({test::sphere(6000)});
+  int asked = 0;
+  CHECK_THROWS_AS(BoundingVolumeHierarchy(s, [&](const char*, double) { return ++asked < 2; }), Cancelled);
+  CHECK(asked == 2);
+}

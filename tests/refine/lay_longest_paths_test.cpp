@@ -108,14 +108,14 @@ TEST_CASE("A stub gives way to a path from end to end; what is long enough stays
     return graph;
   };
   ArcGraph stub = arc_between(9, 10);
-  REQUIRE(lay_longest_paths(stub, bar.surface, bar.hierarchy, inner, 0.008) == 1);
+  REQUIRE(lay_longest_paths(stub, inner, 0.008) == 1);
   CHECK(homotopy_type(stub) == ArcGraphType{1, 0});
   const Arc& path = stub.arcs.back();
   CHECK(arc_length(path) * bar.surface.frame.scale > 16);
   for (std::size_t i = 1; i < path.points.size(); ++i)
     CHECK_FALSE(bar.hierarchy.segment_crosses(path.points[i - 1], path.points[i]));
   ArcGraph whole = arc_between(2, 18);
-  CHECK(lay_longest_paths(whole, bar.surface, bar.hierarchy, inner, 0.008) == 0);
+  CHECK(lay_longest_paths(whole, inner, 0.008) == 0);
 }
 
 TEST_CASE("Stubs and nodes on the surface are told by component") {

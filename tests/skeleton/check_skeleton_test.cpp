@@ -149,3 +149,34 @@ TEST_CASE("radii are distances in model units") {
   CHECK(k.nodes[0].radius == Approx(10));
   CHECK(k.nodes[1].radius == Approx(6));
 }
+
+TEST_CASE("a piece is measured in the solid of its component, without its cavities") {
+  // A ball with a hollow, and a ball inside another that is turned the same way.
+  PolygonSoup outer = test::to_soup(test::sphere(800)), inner = outer;
+  for (Vector3& p : inner.points) p *= 0.5;
+  for (const bool hollow : {true, false}) {
+    PolygonSoup both = outer, second = inner;
+    if (hollow) reverse_orientation(second);
+    append(both, second);
+    const DefaultMesh mesh = test::to_mesh(both);
+    // One line in the middle, and one in the wall.
+    CurveSkeleton skeleton = chain({{-0.3, 0, 0}, {0.3, 0, 0}}, 10);
+    const CurveSkeleton wall = chain({{-0.4, 0, 0.75}, {0.4, 0, 0.75}}, 10);
+    const auto n = static_cast<Index>(skeleton.nodes.size());
+    skeleton.nodes.insert(skeleton.nodes.end(), wall.nodes.begin(), wall.nodes.end());
+    for (const auto& [a, b] : wall.edges) skeleton.edges.push_back({a + n, b + n});
+    const SkeletonChecks right = check(mesh, skeleton);
+    CHECK(right.contained);
+    CHECK(right.inside == Approx(1.0));
+    // Both in the middle: a solid round a hollow has nothing there, a solid with another one inside it has.
+    for (Index i = n; i < static_cast<Index>(skeleton.nodes.size()); ++i)
+      skeleton.nodes[i].position.z() = 0.1;
+    const SkeletonChecks moved = check(mesh, skeleton);
+    CHECK(moved.contained);  // in the hollow: both stand for it, and the certificate misses a piece
+    skeleton.node_of_vertex.assign(mesh.n_vertices(), 0);
+    for (std::size_t v = 0; v < outer.points.size(); ++v) skeleton.node_of_vertex[v] = n;
+    const SkeletonChecks said = check(mesh, skeleton);
+    CHECK(said.contained == !hollow);
+    CHECK(said.outside_nodes == (hollow ? static_cast<Index>(wall.nodes.size()) : 0));
+  }
+}

@@ -135,7 +135,7 @@ TEST_CASE("A loop round the far side of a cup's wall is drawn to the near one") 
   const CrossingLabels crossings(compute_volume_cocycles(solid.surface));
   REQUIRE(arc_length(graph.arcs[0]) * frame.scale > 7);
   mspskel::detail::InnerGraph inner(solid.surface, solid.hierarchy);
-  tighten_in_walls(graph, solid.surface, solid.hierarchy, {true}, inner, 0.008, crossings);
+  tighten_in_walls(graph, inner, {true}, 0.008, crossings);
   CHECK(cycle_rank(graph, crossings).rank == 1);
   double loop = 0;
   for (const Arc& arc : graph.arcs)

@@ -1,6 +1,7 @@
 // The certificate on skeletons that are right, and on ones that are wrong in one way each.
 #include "mspskel/collapse/topology_certificate.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <map>
 
@@ -30,9 +31,19 @@ PolylineGraph cell_graph(const SurfaceSnapshot& s, const std::set<Cell>& cells) 
 }
 
 TopologyCertificate certify(const SurfaceSnapshot& s, const PolylineGraph& graph,
-                            const CocycleOptions& cocycles = {}, const CertificateOptions& options = {}) {
+                            const CocycleOptions& cocycles = {}, const CertificateOptions& options = {},
+                            const Execution& execution = {}) {
   return certify_topology(s, compute_volume_cocycles(s, {}, cocycles), BoundingVolumeHierarchy(s), graph,
-                          options);
+                          options, execution);
+}
+
+// The graphs side by side.
+PolylineGraph joined(const PolylineGraph& a, const PolylineGraph& b) {
+  PolylineGraph both = a;
+  const auto n = static_cast<Index>(a.position.size());
+  both.position.insert(both.position.end(), b.position.begin(), b.position.end());
+  for (const auto& [p, q] : b.edges) both.edges.push_back({p + n, q + n});
+  return both;
 }
 
 CocycleOptions linking_only() {
@@ -144,7 +155,7 @@ TEST_CASE("what is wrong is found and named") {
   }
 }
 
-TEST_CASE("shells inside others are solids of their own") {
+TEST_CASE("shells inside others are solids of their own, and no part of the solid round them") {
   const std::set<Cell> ring = VoxelSolid::path({{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}, {0, 0, 0}});
   VoxelSolid solid;
   for (const Cell& c : ring) solid.box({3 * c[0], 3 * c[1], 0}, {3 * c[0] + 3, 3 * c[1] + 3, 3});
@@ -160,19 +171,64 @@ TEST_CASE("shells inside others are solids of their own") {
       }
   const SurfaceSnapshot s = snapshot_of(solid, 1);
   REQUIRE(s.component_count == 2);
-  // Both shells have a centre line in the same place.
-  PolylineGraph graph =
-      cell_graph(s, VoxelSolid::path({{1, 1, 1}, {13, 1, 1}, {13, 13, 1}, {1, 13, 1}, {1, 1, 1}}));
-  const auto n = static_cast<Index>(graph.position.size());
-  PolylineGraph both = graph;
-  both.position.insert(both.position.end(), graph.position.begin(), graph.position.end());
-  for (const auto& [a, b] : graph.edges) both.edges.push_back({a + n, b + n});
-  CHECK(certify(s, both).verdict == TopologyVerdict::kKept);
-  both.component.assign(static_cast<std::size_t>(n), 0);
-  both.component.insert(both.component.end(), static_cast<std::size_t>(n), 1);
-  const TopologyCertificate c = certify(s, both);
+  const auto line = [&](int z) {
+    return cell_graph(s, VoxelSolid::path({{1, 1, z}, {13, 1, z}, {13, 13, z}, {1, 13, z}, {1, 1, z}}));
+  };
+  const PolylineGraph in_wall = line(0), in_hollow = line(1);
+  const auto with_components = [&](PolylineGraph graph, Index first, Index second) {
+    graph.component.assign(in_wall.position.size(), first);
+    graph.component.resize(graph.position.size(), second);
+    return graph;
+  };
+  const Index outer = s.component[static_cast<std::size_t>(
+      std::min_element(s.position.begin(), s.position.end(),
+                       [](const Vector3& a, const Vector3& b) { return a.x() < b.x(); }) -
+      s.position.begin())];
+  // Which is which is found where it is not said.
+  for (const PolylineGraph& both : {joined(in_wall, in_hollow), joined(in_hollow, in_wall),
+                                    with_components(joined(in_wall, in_hollow), outer, 1 - outer)}) {
+    const TopologyCertificate c = certify(s, both);
+    INFO(c.reason);
+    CHECK(c.nested_components == 1);
+    CHECK(c.inside == 1.0);
+    CHECK(c.verdict == TopologyVerdict::kProved);
+  }
+  const TopologyCertificate wrong =
+      certify(s, with_components(joined(in_hollow, in_hollow), outer, 1 - outer));
+  CHECK(wrong.inside == Approx(0.5));
+  CHECK(wrong.verdict == TopologyVerdict::kKept);
+  CHECK(certify(s, with_components(joined(in_wall, in_hollow), 1 - outer, outer)).inside == 0.0);
+}
+
+TEST_CASE("pieces of bodies in one place stand for one body each") {
+  const VoxelSolid solid = three_rings();
+  PolygonSoup twice = boundary(solid, 1);
+  append(twice, boundary(solid, 1));
+  const SurfaceSnapshot s = make_snapshot(to_mesh(twice));
+  REQUIRE(s.component_count == 2);
+  const PolylineGraph one = cell_graph(s, solid.cells);
+  const TopologyCertificate c = certify(s, joined(one, one), {}, {false});
   INFO(c.reason);
-  CHECK(c.nested_components == 1);
   CHECK(c.inside == 1.0);
   CHECK(c.verdict == TopologyVerdict::kProved);
+}
+
+TEST_CASE("the certificate asks whether to stop") {
+  const VoxelSolid solid = three_rings();
+  const SurfaceSnapshot s = snapshot_of(solid, 1);
+  const PolylineGraph graph = cell_graph(s, solid.cells);
+  Execution execution;
+  int all = 0;
+  execution.progress = [&](const char*, double share) {
+    CHECK((share >= 0 && share <= 1));
+    return ++all, true;
+  };
+  certify(s, graph, {}, {}, execution);
+  CHECK(all >= 3);
+  for (int last = 1; last <= all; ++last) {
+    int asked = 0;
+    execution.progress = [&](const char*, double) { return ++asked < last; };
+    CHECK_THROWS_AS(certify(s, graph, {}, {}, execution), Cancelled);
+    CHECK(asked == last);
+  }
 }

@@ -22,13 +22,14 @@ struct RoutingResult {
 // stretch.
 RoutingResult route_inside(ArcGraph& graph, const BoundingVolumeHierarchy& solid,
                            const SurfaceSnapshot& surface);
-// With the paths of `inner`. Throws UsageError if the graph's map is not of the vertices of its surface.
-RoutingResult route_inside(ArcGraph& graph, const BoundingVolumeHierarchy& solid, detail::InnerGraph& inner);
+// In the solid of `inner`, with its paths. Throws UsageError if the graph's map is not of the vertices of its
+// surface.
+RoutingResult route_inside(ArcGraph& graph, detail::InnerGraph& inner);
 
 // The same for arcs alone: hubs stay, the graph's map is not read, and the paths may be those of any surface
 // within the solid. Arcs that are marked in `held`, where it is given, stay as they are.
 RoutingResult route_arcs_inside(ArcGraph& graph, const BoundingVolumeHierarchy& solid,
-                                detail::InnerGraph& inner, const std::vector<bool>& held = {});
+                                detail::InnerPaths& inner, const std::vector<bool>& held = {});
 
 // Edges of the arcs that meet the surface. A query a point.
 Index count_crossing_edges(const ArcGraph& graph, const BoundingVolumeHierarchy& solid);

@@ -20,9 +20,8 @@ namespace mspskel {
 // where the axis of its opening runs inside; the shortest of these arcs. A point moves only as far as its
 // edges stay off the surface. Returns the number of arcs drawn. Cost: a section a point, and a closest point
 // and a ray a point and round; a path through the solid an end of a tube.
-Index tighten_in_walls(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
-                       const std::vector<bool>& shells, detail::InnerGraph& inner, double step,
-                       const CrossingLabels& crossings = {});
+Index tighten_in_walls(ArcGraph& graph, detail::InnerGraph& inner, const std::vector<bool>& shells,
+                       double step, const CrossingLabels& crossings = {});
 
 }  // namespace mspskel
 

@@ -7,8 +7,11 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
+#include <condition_variable>
 #include <exception>
 #include <functional>
+#include <mutex>
 #include <utility>
 
 #include "mspskel/base/error.h"
@@ -87,30 +90,94 @@ void parallel_for(Index count, const char* stage, const Execution& execution, Ma
   if (failure) std::rethrow_exception(failure);
 }
 
-// Calls both, where there are two threads at the same time: `here` on the calling thread, so it may report
-// progress, `there` on another. They must not write what the other one touches. Parallel loops in them run on
-// one thread. Of two exceptions that of `here` is thrown. (Not std::async: a new thread often starts on the
-// processor that the calling one runs on, and stays there for milliseconds.)
+namespace detail {
+
+// Work on another thread: how far it is, and whether it is to stop.
+class FarSide {
+ public:
+  // From the other thread, as a progress callback. The stage is a literal.
+  bool note(const char* stage, double share) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stage_ = stage;
+    share_ = share;
+    return !stopped_;
+  }
+  void stop() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stopped_ = true;
+  }
+  void end() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    over_ = true;
+    ended_.notify_all();
+  }
+  // Until the end; asks the callback meanwhile, with what the other thread notes. Throws Cancelled.
+  void await(const ProgressCallback& progress) {
+    std::unique_lock<std::mutex> lock(mutex_);
+    while (!ended_.wait_for(lock, std::chrono::milliseconds(50), [&] { return over_; })) {
+      if (stage_ == nullptr) continue;
+      const char* const stage = stage_;
+      const double share = share_;
+      lock.unlock();
+      report_progress(progress, stage, share);
+      lock.lock();
+    }
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable ended_;
+  const char* stage_ = nullptr;  // until something is noted
+  double share_ = 0;
+  bool stopped_ = false, over_ = false;
+};
+
+template <class Work>
+std::exception_ptr failure_of(Work&& work) {
+  try {
+    work();
+  } catch (...) {
+    return std::current_exception();
+  }
+  return nullptr;
+}
+
+}  // namespace detail
+
+// Calls here() and there(aside), where there are two threads at the same time: `here` on the calling thread,
+// so it may report progress, `there` on another with an execution of its own: one thread, and a callback
+// that says no once `here` has failed or the caller's callback has said no, which is asked while only `there`
+// goes on. They must not write what the other one touches. Parallel loops in them run on one thread. Of two
+// exceptions that of `here` is thrown. (Not std::async: a new thread often starts on the processor that the
+// calling one runs on, and stays there for milliseconds.)
 template <class Here, class There>
 void run_beside(const Execution& execution, Here here, There there) {
   std::exception_ptr failure, other_failure;
-  const auto guarded = [](auto& work, std::exception_ptr& thrown) {
-    try {
-      work();
-    } catch (...) {
-      thrown = std::current_exception();
-    }
+  detail::FarSide far;
+  const auto near_side = [&](auto&& work) {
+    failure = detail::failure_of(work);
+    if (failure) far.stop();
+  };
+  const auto far_side = [&](bool alone) {
+    Execution aside;
+    aside.threads = 1;
+    aside.progress = [&far, &execution, alone](const char* stage, double share) {
+      return far.note(stage, share) && (!alone || !execution.progress || execution.progress(stage, share));
+    };
+    other_failure = detail::failure_of([&] { there(aside); });
+    far.end();
   };
 #ifdef _OPENMP
 #pragma omp parallel num_threads(std::min(2, thread_count(execution)))
   {
-    if (omp_get_thread_num() == 0) guarded(here, failure);
-    if (omp_get_thread_num() == omp_get_num_threads() - 1) guarded(there, other_failure);
+    const bool alone = omp_get_num_threads() == 1;
+    if (omp_get_thread_num() == 0) near_side(here);
+    if (omp_get_thread_num() == omp_get_num_threads() - 1) far_side(alone);
+    if (omp_get_thread_num() == 0 && !failure) near_side([&] { far.await(execution.progress); });
   }
 #else
-  (void)execution;
-  guarded(here, failure);
-  guarded(there, other_failure);
+  near_side(here);
+  far_side(true);
 #endif
   if (failure) std::rethrow_exception(failure);
   if (other_failure) std::rethrow_exception(other_failure);

@@ -7,24 +7,15 @@
 // rank. Nothing of this looks at how the skeleton was made.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "mspskel/collapse/piece_components.h"
 #include "mspskel/collapse/volume_cocycles.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
 
 namespace mspskel {
-
-// A skeleton as points and straight edges, normalised units. Parallel edges and loops are allowed.
-struct PolylineGraph {
-  std::vector<Vector3> position;
-  std::vector<std::array<Index, 2>> edges;
-  // Per node the component of the surface that it stands for. May be empty where no component lies inside
-  // another: then it is found from the positions.
-  std::vector<Index> component;
-};
 
 enum class TopologyVerdict {
   kProved,  // every condition holds
@@ -49,7 +40,7 @@ struct TopologyCertificate {
   std::string reason;  // why it is not proved; empty if it is
 
   // Of the surface.
-  Index components = 0, nested_components = 0;  // the latter lie inside others; each is a solid of its own
+  Index components = 0, nested_components = 0;  // the latter lie inside others
   std::vector<Index> genus;                     // per component
   Index total_genus = 0;
   Index small_handles = 0;  // of these, handles that are too small for a cycle by CocycleOptions
@@ -62,25 +53,20 @@ struct TopologyCertificate {
   // Of the skeleton.
   Index b0 = 0, b1 = 0;
   Index crossing_rank = 0;  // rank of the signed crossings of its cycles with the cocycles' regions
-  // Share of the length inside (of the component that each piece stands for, as a solid of its own); edges
-  // that are not inside from end to end.
+  // Share of the length inside the solid of the component that each piece stands for, without its cavities;
+  // edges that are not inside from end to end.
   double inside = 0.0;
   Index edges_inside = 0, edges_not_inside = 0;
   std::optional<Vector3> outside_at;  // a place outside, normalised units; of edges that only graze the
                                       // surface, none may be found
 };
 
-// The component that each node stands for, from the map of the surface's vertices to nodes (kNone entries are
-// skipped). Throws UsageError for a node out of range.
-std::vector<Index> component_of_nodes(const SurfaceSnapshot& surface, Index node_count,
-                                      const std::vector<Index>& node_of_vertex);
-
 // `hierarchy` is that of the whole surface. Cost: O(faces + edges · (log faces + cocycles · crossings a
 // contour)), and the test for self-intersections, O(faces · log faces).
-// Throws UsageError for an edge that names no node, or a component that does not exist.
+// Throws UsageError for an edge that names no node, or a component that does not exist; Cancelled.
 TopologyCertificate certify_topology(const SurfaceSnapshot& surface, const VolumeCocycles& cocycles,
                                      const BoundingVolumeHierarchy& hierarchy, const PolylineGraph& graph,
-                                     const CertificateOptions& options = {});
+                                     const CertificateOptions& options = {}, const Execution& execution = {});
 
 }  // namespace mspskel
 

@@ -27,7 +27,8 @@ struct CoverageOptions {
 };
 
 // The parts of at least kMissedWidths, the longest for its width first. With f the distance of the surface
-// outside the union of the maximal balls round the skeleton's nodes, a part is what hangs together beyond a
+// outside the union of the maximal balls round the skeleton's nodes (those of the same component, in its
+// solid), a part is what hangs together beyond a
 // level of f, from a maximum down to where it is most slender (pi depth^2 / area, which is length over width
 // of a tube) before it meets a farther part: the measure that tells limbs, with another distance. The area is
 // that of all triangles that a part touches, so few triangles rather hide a part than make one up. Hierarchy

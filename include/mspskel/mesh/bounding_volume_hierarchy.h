@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "mspskel/base/progress.h"
 #include "mspskel/base/types.h"
 #include "mspskel/mesh/detail/box_tree.h"
 #include "mspskel/mesh/detail/triangle_block.h"
@@ -33,10 +34,11 @@ struct RayHit {
 // snapshot.
 class BoundingVolumeHierarchy {
  public:
-  // O(faces log faces).
-  explicit BoundingVolumeHierarchy(const SurfaceSnapshot& snapshot);
+  // O(faces log faces). Throws Cancelled.
+  explicit BoundingVolumeHierarchy(const SurfaceSnapshot& snapshot, const ProgressCallback& progress = {});
   // Over some of the faces: queries see only these, and still name them as the snapshot does.
-  BoundingVolumeHierarchy(const SurfaceSnapshot& snapshot, const std::vector<Index>& faces);
+  BoundingVolumeHierarchy(const SurfaceSnapshot& snapshot, const std::vector<Index>& faces,
+                          const ProgressCallback& progress = {});
 
   Index face_count() const { return face_count_; }
 

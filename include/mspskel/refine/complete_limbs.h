@@ -19,10 +19,9 @@ namespace mspskel {
 // queries an arc tried; at most 64 are tried.
 Index complete_limbs(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
                      std::vector<LimbTip>& tips, const LimbOptions& options, double step);
-// With the paths of `inner`, which is of the same surface and solid.
-Index complete_limbs(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
-                     std::vector<LimbTip>& tips, const LimbOptions& options, double step,
-                     detail::InnerGraph& inner, const Execution& execution = {});
+// On the surface and in the solid of `inner`, with its paths.
+Index complete_limbs(ArcGraph& graph, detail::InnerGraph& inner, std::vector<LimbTip>& tips,
+                     const LimbOptions& options, double step, const Execution& execution = {});
 
 }  // namespace mspskel
 

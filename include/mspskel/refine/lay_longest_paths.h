@@ -12,11 +12,9 @@ namespace mspskel {
 // says. Every component of genus 0 whose arcs together are shorter than kLeastPieceLength of its extent gets
 // one arc between two vertices that are far apart on the surface, through the solid as near to its middle as
 // the way goes, and centred at steps of `step`. Components where no path is found that is longer than what
-// they have stay as they are. `graph` is of the vertices of `surface`, `inner` of the same surface and
-// solid. Returns the number of paths laid. Cost: O(vertices + arcs); shortest ways over the surface and a
-// shortest path inside for each path.
-Index lay_longest_paths(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
-                        detail::InnerGraph& inner, double step);
+// they have stay as they are. `inner` is of the surface and solid of the graph. Returns the number of paths
+// laid. Cost: O(vertices + arcs); shortest ways over the surface and a shortest path inside for each path.
+Index lay_longest_paths(ArcGraph& graph, detail::InnerGraph& inner, double step);
 
 }  // namespace mspskel
 

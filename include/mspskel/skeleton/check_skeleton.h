@@ -20,7 +20,8 @@ struct SkeletonChecks {
   Index spurs = 0;  // leaf branches whose tip lies in the maximal ball of the joint that they leave
   double length = 0.0, longest_edge = 0.0;
 
-  // Containment: exact, by nodes and edges; then the share of the length, by samples every 0.0025.
+  // Containment, in the solid of the component that each piece stands for: exact, by nodes and edges; then
+  // the share of the length, by samples every 0.0025.
   Index outside_nodes = 0;
   Index crossing_edges = 0;  // edges that meet the surface between their ends
   bool contained = false;    // no node outside and no edge crossing: every point of the skeleton is inside
@@ -31,7 +32,8 @@ struct SkeletonChecks {
   Index centredness_samples = 0;
   double off_centre_mean = 0.0, off_centre_p90 = 0.0;
 
-  // Distance from (about 2,000) surface vertices to the union of maximal balls round the samples inside.
+  // Distance from (about 2,000) surface vertices to the union of maximal balls round the samples inside of
+  // the same component.
   double cover_mean = 0.0, cover_p95 = 0.0;
 
   // Mean turning angle, degrees, along the branches after resampling at 0.01. 0 if there is nothing to turn.

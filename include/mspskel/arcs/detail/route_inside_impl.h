@@ -9,7 +9,7 @@
 namespace mspskel {
 namespace detail {
 
-inline void route_arc(Arc& arc, const BoundingVolumeHierarchy& solid, InnerGraph& inner,
+inline void route_arc(Arc& arc, const BoundingVolumeHierarchy& solid, InnerPaths& inner,
                       RoutingResult& result) {
   std::vector<Vector3> kept{arc.points.front()};
   for (std::size_t i = 1; i + 1 < arc.points.size(); ++i)
@@ -32,18 +32,16 @@ inline void route_arc(Arc& arc, const BoundingVolumeHierarchy& solid, InnerGraph
 
 // Hubs that lie outside, each to the nearest chord middle of its own part: another limb's chords may lie
 // nearer. The graph's map is of the vertices of `inner`'s surface. Returns how many it moved.
-inline Index move_hubs_inside(ArcGraph& graph, const BoundingVolumeHierarchy& solid, InnerGraph& inner) {
+inline Index move_hubs_inside(ArcGraph& graph, InnerGraph& inner) {
+  const BoundingVolumeHierarchy& solid = inner.solid();
   std::vector<Index> hubs;
   for (Index h = 0; h < graph.hub_count(); ++h)
     if (graph.hub_alive[h] && !solid.inside(graph.hub_position[h])) hubs.push_back(h);
   if (hubs.empty()) return 0;
   const SurfaceSnapshot& surface = inner.surface();
-  if (graph.arc_of_vertex.size() != surface.position.size())
-    throw UsageError("the graph's map is of " + std::to_string(graph.arc_of_vertex.size()) +
-                     " vertices, the surface has " + std::to_string(surface.position.size()));
+  const std::vector<Index> component = hub_components(graph, surface);
   inner.prepare();
   Index moved = 0;
-  const std::vector<Index> component = hub_components(graph, surface);
   for (const Index h : hubs) {
     const auto own = [&](Index w) {
       const Index a = graph.arc_of_vertex[w];
@@ -67,21 +65,20 @@ inline Index move_hubs_inside(ArcGraph& graph, const BoundingVolumeHierarchy& so
 MSPSKEL_INLINE RoutingResult route_inside(ArcGraph& graph, const BoundingVolumeHierarchy& solid,
                                           const SurfaceSnapshot& surface) {
   detail::InnerGraph inner(surface, solid);
-  return route_inside(graph, solid, inner);
+  return route_inside(graph, inner);
 }
 
-MSPSKEL_INLINE RoutingResult route_inside(ArcGraph& graph, const BoundingVolumeHierarchy& solid,
-                                          detail::InnerGraph& inner) {
+MSPSKEL_INLINE RoutingResult route_inside(ArcGraph& graph, detail::InnerGraph& inner) {
   RoutingResult result;
-  result.hubs_moved = detail::move_hubs_inside(graph, solid, inner);
-  const RoutingResult arcs = route_arcs_inside(graph, solid, inner);
+  result.hubs_moved = detail::move_hubs_inside(graph, inner);
+  const RoutingResult arcs = route_arcs_inside(graph, inner.solid(), inner);
   result.routed = arcs.routed;
   result.unroutable = arcs.unroutable;
   return result;
 }
 
 MSPSKEL_INLINE RoutingResult route_arcs_inside(ArcGraph& graph, const BoundingVolumeHierarchy& solid,
-                                               detail::InnerGraph& inner, const std::vector<bool>& held) {
+                                               detail::InnerPaths& inner, const std::vector<bool>& held) {
   RoutingResult result;
   for (std::size_t a = 0; a < graph.arcs.size(); ++a) {
     if (!held.empty() && held[a]) continue;

@@ -187,17 +187,17 @@ inline bool begin_in_tube(ArcGraph& graph, Index arc, const BoundingVolumeHierar
 // The arcs of shells, one after the other.
 class WallArcs {
  public:
-  WallArcs(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
-           const std::vector<bool>& shells, InnerGraph& inner, double step, const CrossingLabels& crossings)
+  WallArcs(ArcGraph& graph, InnerGraph& inner, const std::vector<bool>& shells, double step,
+           const CrossingLabels& crossings)
       : graph_(graph),
-        surface_(surface),
-        solid_(solid),
+        surface_(inner.surface()),
+        solid_(inner.solid()),
         shells_(shells),
         inner_(inner),
         crossings_(crossings),
-        line_(solid, step, crossings),
+        line_(solid_, step, crossings),
         step_(step),
-        component_(hub_components(graph, surface)),
+        component_(hub_components(graph, surface_)),
         ends_(shells.size()),
         has_leaf_(shells.size(), false) {}
 
@@ -313,12 +313,11 @@ class WallArcs {
 
 }  // namespace detail
 
-MSPSKEL_INLINE Index tighten_in_walls(ArcGraph& graph, const SurfaceSnapshot& surface,
-                                      const BoundingVolumeHierarchy& solid, const std::vector<bool>& shells,
-                                      detail::InnerGraph& inner, double step,
+MSPSKEL_INLINE Index tighten_in_walls(ArcGraph& graph, detail::InnerGraph& inner,
+                                      const std::vector<bool>& shells, double step,
                                       const CrossingLabels& crossings) {
   if (std::find(shells.begin(), shells.end(), true) == shells.end()) return 0;
-  return detail::WallArcs(graph, surface, solid, shells, inner, step, crossings).run();
+  return detail::WallArcs(graph, inner, shells, step, crossings).run();
 }
 
 }  // namespace mspskel

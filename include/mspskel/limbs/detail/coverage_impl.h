@@ -6,22 +6,31 @@
 #include "mspskel/base/linkage.h"
 #include "mspskel/limbs/detail/slender_parts.h"
 #include "mspskel/mesh/detail/component_diagonals.h"
+#include "mspskel/skeleton/detail/placed_skeleton.h"
 #include "mspskel/solid/detail/ball_tree.h"
 
 namespace mspskel {
 namespace detail {
 
-inline BallTree balls_of_nodes(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
-                               const CurveSkeleton& skeleton, const Execution& execution) {
+// Per component the maximal balls, in its solid, round the nodes that stand for it.
+inline std::vector<BallTree> balls_of_nodes(const SurfaceSnapshot& surface,
+                                            const BoundingVolumeHierarchy& whole,
+                                            const CurveSkeleton& skeleton, const Execution& execution) {
+  const PlacedSkeleton placed(surface, whole, skeleton, execution.progress);
   std::vector<Ball> balls;
-  for (const SkeletonNode& node : skeleton.nodes)
-    balls.push_back({surface.frame.to_normalised(node.position), 0.0});
+  for (const Vector3& position : placed.graph.position) balls.push_back({position, 0.0});
   parallel_for(
       static_cast<Index>(balls.size()), "coverage", execution, [] { return 0; },
       [&](Index i, int) {
+        const BoundingVolumeHierarchy& solid = placed.solid_of(i);
         if (solid.inside(balls[i].centre)) balls[i].radius = solid.distance(balls[i].centre);
       });
-  return BallTree(std::move(balls));
+  std::vector<std::vector<Ball>> of_component(surface.component_count);
+  for (std::size_t i = 0; i < balls.size(); ++i)
+    if (const Index c = placed.graph.component[i]; c != kNone) of_component[c].push_back(balls[i]);
+  std::vector<BallTree> trees;
+  for (std::vector<Ball>& own : of_component) trees.emplace_back(std::move(own));
+  return trees;
 }
 
 }  // namespace detail
@@ -31,12 +40,14 @@ MSPSKEL_INLINE std::vector<UncoveredPart> find_uncovered_parts(const SurfaceSnap
                                                                const CurveSkeleton& skeleton,
                                                                const CoverageOptions& options,
                                                                const Execution& execution) {
-  const detail::BallTree balls = detail::balls_of_nodes(surface, solid, skeleton, execution);
+  const std::vector<detail::BallTree> balls = detail::balls_of_nodes(surface, solid, skeleton, execution);
   std::vector<double> outside(surface.position.size(), 0.0);
   parallel_for(
       surface.vertex_count(), "coverage", execution, [] { return 0; },
       [&](Index v, int) {
-        if (surface.vertex_halfedge[v] != kNone) outside[v] = balls.distance_outside(surface.position[v]);
+        if (surface.vertex_halfedge[v] == kNone) return;
+        const detail::BallTree& own = balls[surface.component[v]];
+        if (!own.empty()) outside[v] = own.distance_outside(surface.position[v]);
       });
 
   std::vector<Index> beyond;

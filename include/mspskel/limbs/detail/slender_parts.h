@@ -62,7 +62,8 @@ std::vector<SlenderPart> slender_parts(const SurfaceSnapshot& surface, const std
         Notes& notes = part.notes;
         notes.area += area_first_touched(surface, distance, v);
         const double depth = distance[part.top] - distance[v];
-        if (!(depth > least_depth(v))) return;
+        // Within rounding a line, which encloses nothing.
+        if (!(depth > least_depth(v)) || !(notes.area > 1e-12 * depth)) return;
         const double slenderness = 2 * kPi * depth * depth / notes.area;
         if (slenderness <= notes.slenderness) return;
         notes.slenderness = slenderness;

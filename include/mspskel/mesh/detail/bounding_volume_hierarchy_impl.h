@@ -19,24 +19,32 @@ inline PrimitiveBox box_of(const Triangle& t, Index primitive) {
 
 }  // namespace detail
 
-inline BoundingVolumeHierarchy::BoundingVolumeHierarchy(const SurfaceSnapshot& s)
-    : BoundingVolumeHierarchy(s, [&] {
-        std::vector<Index> all(s.face_count());
-        std::iota(all.begin(), all.end(), 0);
-        return all;
-      }()) {}
+inline BoundingVolumeHierarchy::BoundingVolumeHierarchy(const SurfaceSnapshot& s,
+                                                        const ProgressCallback& progress)
+    : BoundingVolumeHierarchy(
+          s,
+          [&] {
+            std::vector<Index> all(s.face_count());
+            std::iota(all.begin(), all.end(), 0);
+            return all;
+          }(),
+          progress) {}
 
 inline BoundingVolumeHierarchy::BoundingVolumeHierarchy(const SurfaceSnapshot& s,
-                                                        const std::vector<Index>& faces) {
+                                                        const std::vector<Index>& faces,
+                                                        const ProgressCallback& progress) {
   const auto triangle = [&](Index f) {
     return detail::Triangle{s.position[s.origin[3 * f]], s.position[s.origin[3 * f + 1]],
                             s.position[s.origin[3 * f + 2]]};
   };
   std::vector<detail::PrimitiveBox> boxes;
   boxes.reserve(faces.size());
-  for (const Index f : faces) boxes.push_back(detail::box_of(triangle(f), f));
-  for (const Vector3& p : s.position) reach_ = std::max(reach_, p.cwiseAbs().maxCoeff());
-  face_ = tree_.build(boxes, reach_);
+  for (const Index f : faces) {
+    const detail::Triangle t = triangle(f);
+    boxes.push_back(detail::box_of(t, f));
+    for (const Vector3* p : {&t.a, &t.b, &t.c}) reach_ = std::max(reach_, p->cwiseAbs().maxCoeff());
+  }
+  face_ = tree_.build(boxes, reach_, progress);
   face_count_ = static_cast<Index>(faces.size());
   triangles_.resize(face_.size());
   blocks_.reserve(face_.size() / detail::BoxTree::kLeafSize);

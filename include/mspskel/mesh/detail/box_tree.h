@@ -12,6 +12,7 @@
 #endif
 
 #include "mspskel/base/clones.h"
+#include "mspskel/base/progress.h"
 #include "mspskel/base/types.h"
 
 namespace mspskel {
@@ -58,8 +59,9 @@ class BoxTree {
   static constexpr Index kLeafSize = 4;
 
   // Reorders `boxes` and returns the primitive in each slot: leaf i has the slots 4i .. 4i + 3, the last ones
-  // perhaps empty (kNone). `reach` bounds every coordinate's magnitude.
-  std::vector<Index> build(std::vector<PrimitiveBox>& boxes, double reach);
+  // perhaps empty (kNone). `reach` bounds every coordinate's magnitude. Throws Cancelled.
+  std::vector<Index> build(std::vector<PrimitiveBox>& boxes, double reach,
+                           const ProgressCallback& progress = {});
 
   // Calls leaf(first, count) by growing distance from p as long as a box is nearer than `bound` (a squared
   // distance that the callback lowers).
@@ -78,7 +80,14 @@ class BoxTree {
   void in_box(const Vector3& low, const Vector3& high, Leaf leaf) const;
 
  private:
-  Index build_node(PrimitiveBox* boxes, Index begin, Index end, int depth, std::vector<Index>& slots);
+  static constexpr Index kPolled = 1024;  // fewer primitives take well below a millisecond
+
+  struct Building {
+    std::vector<PrimitiveBox>& boxes;
+    const ProgressCallback& progress;
+    std::vector<Index> slots;
+  };
+  Index build_node(Building& building, Index begin, Index end, int depth);
 
   std::vector<BoxNode> nodes_;
   double reach_ = 0.0;
@@ -161,7 +170,8 @@ MSPSKEL_AVX_CLONES inline Index split(PrimitiveBox* boxes, Index begin, Index en
   return static_cast<Index>(cut - boxes);
 }
 
-inline std::vector<Index> BoxTree::build(std::vector<PrimitiveBox>& boxes, double reach) {
+inline std::vector<Index> BoxTree::build(std::vector<PrimitiveBox>& boxes, double reach,
+                                         const ProgressCallback& progress) {
   nodes_.clear();
   nodes_.reserve(boxes.size() / 4 + 1);
   reach_ = reach;
@@ -173,14 +183,18 @@ inline std::vector<Index> BoxTree::build(std::vector<PrimitiveBox>& boxes, doubl
       b.low[k] -= pad;
       b.high[k] += pad;
     }
-  std::vector<Index> slots;
-  slots.reserve(boxes.size() + boxes.size() / 2);
-  build_node(boxes.data(), 0, static_cast<Index>(boxes.size()), 0, slots);
-  return slots;
+  Building building{boxes, progress, {}};
+  building.slots.reserve(boxes.size() + boxes.size() / 2);
+  build_node(building, 0, static_cast<Index>(boxes.size()), 0);
+  return std::move(building.slots);
 }
 
-inline Index BoxTree::build_node(PrimitiveBox* boxes, Index begin, Index end, int depth,
-                                 std::vector<Index>& slots) {
+inline Index BoxTree::build_node(Building& building, Index begin, Index end, int depth) {
+  PrimitiveBox* const boxes = building.boxes.data();
+  std::vector<Index>& slots = building.slots;
+  if (end - begin > kPolled)
+    report_progress(building.progress, "hierarchy",
+                    static_cast<double>(begin) / static_cast<double>(building.boxes.size()));
   struct Range {
     Index begin, end;
     Bounds bounds;
@@ -219,7 +233,7 @@ inline Index BoxTree::build_node(PrimitiveBox* boxes, Index begin, Index end, in
     const Index size = range[r].end - range[r].begin;
     Index child = static_cast<Index>(slots.size());
     if (size > kLeafSize) {
-      child = build_node(boxes, range[r].begin, range[r].end, depth + 1, slots);
+      child = build_node(building, range[r].begin, range[r].end, depth + 1);
     } else {
       for (Index i = 0; i < kLeafSize; ++i)
         slots.push_back(i < size ? boxes[range[r].begin + i].primitive : kNone);

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "mspskel/base/linkage.h"
+#include "mspskel/mesh/detail/components_around.h"
 #include "mspskel/mesh/self_intersection.h"
 
 namespace mspskel {
@@ -51,41 +52,12 @@ inline void measure_edges(const SurfaceSnapshot& s, MeshReport& r) {
   r.mean_edge = sum / s.halfedge_count();
 }
 
-struct Box3 {
-  Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity());
-  Vector3 high = Vector3::Constant(-std::numeric_limits<double>::infinity());
-  void add(const Vector3& p) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  bool contains(const Vector3& p) const {
-    return (p.array() >= low.array()).all() && (p.array() <= high.array()).all();
-  }
-};
-
 // Which component lies inside which: a vertex of the one against a hierarchy of the other.
-inline void find_nesting(const SurfaceSnapshot& s, MeshReport& r) {
+inline void find_nesting(const SurfaceSnapshot& s, const ProgressCallback& progress, MeshReport& r) {
   const Index n = s.component_count;
   if (n < 2) return;
-  std::vector<std::vector<Index>> faces(n);
-  std::vector<Box3> box(n);
-  std::vector<Index> first(n, kNone);
-  for (Index f = 0; f < s.face_count(); ++f) faces[s.component[s.origin[3 * f]]].push_back(f);
-  for (Index v = s.vertex_count() - 1; v >= 0; --v)
-    if (s.component[v] != kNone) {
-      box[s.component[v]].add(s.position[v]);
-      first[s.component[v]] = v;
-    }
-  std::vector<std::vector<Index>> around(n);
-  for (Index outer = 0; outer < n; ++outer) {
-    std::vector<Index> candidates;
-    for (Index inner = 0; inner < n; ++inner)
-      if (inner != outer && box[outer].contains(s.position[first[inner]])) candidates.push_back(inner);
-    if (candidates.empty()) continue;
-    const BoundingVolumeHierarchy hierarchy(s, faces[outer]);
-    for (const Index inner : candidates)
-      if (hierarchy.inside(s.position[first[inner]])) around[inner].push_back(outer);
-  }
+  const std::vector<std::vector<Index>> around =
+      components_around(s, faces_of_components(s), component_boxes(s), progress);
   for (Index c = 0; c < n; ++c) r.components[c].depth = static_cast<Index>(around[c].size());
   for (Index c = 0; c < n; ++c) {
     for (const Index outer : around[c]) {
@@ -113,9 +85,9 @@ MSPSKEL_INLINE void validate(const MeshReportOptions& options) {
 }
 
 MSPSKEL_INLINE double bounding_box_diagonal(const SurfaceSnapshot& snapshot) {
-  detail::Box3 box;
-  for (const Vector3& p : snapshot.position) box.add(p);
-  return (box.high - box.low).norm();
+  Eigen::AlignedBox3d box;
+  for (const Vector3& p : snapshot.position) box.extend(p);
+  return box.isEmpty() ? 0.0 : box.diagonal().norm();
 }
 
 MSPSKEL_INLINE MeshReport report_mesh(const SurfaceSnapshot& snapshot,
@@ -128,7 +100,7 @@ MSPSKEL_INLINE MeshReport report_mesh(const SurfaceSnapshot& snapshot,
   report.diagonal = bounding_box_diagonal(snapshot);
   detail::measure_components(snapshot, report);
   detail::measure_edges(snapshot, report);
-  detail::find_nesting(snapshot, report);
+  detail::find_nesting(snapshot, execution.progress, report);
   if (options.self_intersection_limit > 0)
     report.self_intersections =
         count_self_intersections(snapshot, hierarchy, options.self_intersection_limit, execution);

@@ -44,9 +44,9 @@ inline ExtractResult extract_component(SurfaceSnapshot surface, const SurfaceSna
         result.coarse = coarsen_in_steps(shells, options, limbs);
         clock.lap("coarsening");
       },
-      [&] {
-        hierarchy =
-            std::make_shared<const BoundingVolumeHierarchy>(bounds != nullptr ? *bounds : result.surface);
+      [&](const Execution& aside) {
+        hierarchy = std::make_shared<const BoundingVolumeHierarchy>(
+            bounds != nullptr ? *bounds : result.surface, aside.progress);
       });
   if (bounds == nullptr) result.solid = hierarchy;
   const BoundingVolumeHierarchy& solid = *hierarchy;
@@ -58,9 +58,9 @@ inline ExtractResult extract_component(SurfaceSnapshot surface, const SurfaceSna
   run_beside(
       options.execution,
       [&] { detail::run_collapse_stages(shells, working, options, result, coarse_labels, clock); },
-      [&] {
+      [&](const Execution& aside) {
         if (options.refinement.enabled)
-          tips = detail::limb_tips(shells, limbs, solid, result.slices, options.refinement.limbs);
+          tips = detail::limb_tips(shells, limbs, solid, result.slices, options.refinement.limbs, aside);
       });
   clock.lap("limb_tips");
   ArcGraph arcs;

@@ -39,13 +39,11 @@ inline CoarseSurface coarsen_in_steps(const SurfaceSnapshot& input, const Extrac
 // `slices` are of the surface that the stages walk on, and so are the vertices of the tips.
 inline std::vector<LimbTip> limb_tips(const SurfaceSnapshot& input, const LimbSurface& limbs,
                                       const BoundingVolumeHierarchy& solid, const VertexSlices& slices,
-                                      const LimbOptions& options) {
-  Execution alone;  // other stages run beside it
-  alone.threads = 1;
-  if (limbs.coarse_vertex.empty()) return find_limb_tips(input, solid, slices, options, alone);
+                                      const LimbOptions& options, const Execution& execution) {
+  if (limbs.coarse_vertex.empty()) return find_limb_tips(input, solid, slices, options, execution);
   const SurfaceSnapshot& surface = limbs.between ? limbs.between->surface : input;
   return on_coarser_surface(
-      find_limb_tips(surface, solid, carried_over(slices, limbs.coarse_vertex), options, alone),
+      find_limb_tips(surface, solid, carried_over(slices, limbs.coarse_vertex), options, execution),
       limbs.coarse_vertex);
 }
 

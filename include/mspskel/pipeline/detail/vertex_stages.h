@@ -41,8 +41,9 @@ inline void run_vertex_stages(const SurfaceSnapshot& surface, const BoundingVolu
   std::optional<SliceTracer> tracer;
   run_beside(
       options.execution, [&] { tracer.emplace(surface); },
-      [&] {
-        if (of_surface == nullptr && points.holes != HoleSearch::kIgnore) own.emplace(surface);
+      [&](const Execution& aside) {
+        if (of_surface == nullptr && points.holes != HoleSearch::kIgnore)
+          own.emplace(surface, aside.progress);
       });
   run_slice_stages(*tracer, options, result, clock);
   points.solid = own ? &*own : of_surface;

@@ -20,26 +20,25 @@ inline constexpr double kLeastProtrusion = 3.5;
 
 class LimbCompletion {
  public:
-  LimbCompletion(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
-                 std::vector<LimbTip>& tips, const LimbOptions& options, double step, InnerGraph& inner,
-                 const Execution& execution)
+  LimbCompletion(ArcGraph& graph, InnerGraph& inner, std::vector<LimbTip>& tips, const LimbOptions& options,
+                 double step, const Execution& execution)
       : graph_(graph),
-        surface_(surface),
-        solid_(solid),
+        surface_(inner.surface()),
+        solid_(inner.solid()),
         tips_(tips),
         options_(options),
         step_(step),
         inner_(inner) {
-    const ArcBalls balls(graph, solid, execution);
+    const ArcBalls balls(graph, solid_, execution);
     const BallTree tree(all_balls(graph, balls));
-    outside_.assign(surface.position.size(), 0.0);
+    outside_.assign(surface_.position.size(), 0.0);
     parallel_for(
-        surface.vertex_count(), "arcs", execution, [] { return 0; },
+        surface_.vertex_count(), "arcs", execution, [] { return 0; },
         [&](Index v, int) {
           if (graph.arc_of_vertex[v] == kNone && graph.hub_of_vertex[v] == kNone) return;
-          outside_[v] = tree.distance_outside(surface.position[v]);
+          outside_[v] = tree.distance_outside(surface_.position[v]);
         });
-    hub_component_ = components_of_pieces(graph, surface);
+    hub_component_ = components_of_pieces(graph, surface_);
   }
 
   Index run() {
@@ -232,18 +231,16 @@ class LimbCompletion {
 
 }  // namespace detail
 
-MSPSKEL_INLINE Index complete_limbs(ArcGraph& graph, const SurfaceSnapshot& surface,
-                                    const BoundingVolumeHierarchy& solid, std::vector<LimbTip>& tips,
-                                    const LimbOptions& options, double step, detail::InnerGraph& inner,
-                                    const Execution& execution) {
-  return detail::LimbCompletion(graph, surface, solid, tips, options, step, inner, execution).run();
+MSPSKEL_INLINE Index complete_limbs(ArcGraph& graph, detail::InnerGraph& inner, std::vector<LimbTip>& tips,
+                                    const LimbOptions& options, double step, const Execution& execution) {
+  return detail::LimbCompletion(graph, inner, tips, options, step, execution).run();
 }
 
 MSPSKEL_INLINE Index complete_limbs(ArcGraph& graph, const SurfaceSnapshot& surface,
                                     const BoundingVolumeHierarchy& solid, std::vector<LimbTip>& tips,
                                     const LimbOptions& options, double step) {
   detail::InnerGraph inner(surface, solid);
-  return complete_limbs(graph, surface, solid, tips, options, step, inner);
+  return complete_limbs(graph, inner, tips, options, step);
 }
 
 }  // namespace mspskel

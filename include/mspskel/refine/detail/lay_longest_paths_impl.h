@@ -17,9 +17,8 @@ namespace detail {
 
 class LongestPaths {
  public:
-  LongestPaths(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
-               InnerGraph& inner, double step)
-      : graph_(graph), surface_(surface), solid_(solid), inner_(inner), step_(step) {}
+  LongestPaths(ArcGraph& graph, InnerGraph& inner, double step)
+      : graph_(graph), surface_(inner.surface()), solid_(inner.solid()), inner_(inner), step_(step) {}
 
   Index run() {
     const std::vector<Index> component = components_of_pieces(graph_, surface_);
@@ -89,10 +88,8 @@ class LongestPaths {
 
 }  // namespace detail
 
-MSPSKEL_INLINE Index lay_longest_paths(ArcGraph& graph, const SurfaceSnapshot& surface,
-                                       const BoundingVolumeHierarchy& solid, detail::InnerGraph& inner,
-                                       double step) {
-  return detail::LongestPaths(graph, surface, solid, inner, step).run();
+MSPSKEL_INLINE Index lay_longest_paths(ArcGraph& graph, detail::InnerGraph& inner, double step) {
+  return detail::LongestPaths(graph, inner, step).run();
 }
 
 }  // namespace mspskel

@@ -81,10 +81,10 @@ class ArcRefinement {
   }
 
   void route() {
-    counts_.routing = route_inside(graph_, solid_, inner_);
+    counts_.routing = route_inside(graph_, inner_);
     // Edges of the coarser surface may cut what bounds the solid where a limb is thin.
     if (counts_.routing.unroutable > 0 && &input_ != &surface_) {
-      InnerGraph fine(input_, solid_, execution_);
+      InnerPaths fine(input_, solid_, execution_);
       const RoutingResult again = route_arcs_inside(graph_, solid_, fine);
       counts_.routing.routed += again.routed;
       counts_.routing.unroutable = again.unroutable;
@@ -120,12 +120,12 @@ class ArcRefinement {
     for (std::size_t c = 0; c < shells.size(); ++c)
       only_vessels = only_vessels && shells[c] && is_vessel(moments[c], solid_);
     if (only_vessels) return;
-    counts_.paths = lay_longest_paths(graph_, surface_, solid_, inner_, options_.centering.step);
+    counts_.paths = lay_longest_paths(graph_, inner_, options_.centering.step);
     keep_type("laying of paths");
   }
   void tighten() {
-    tighten_in_walls(graph_, surface_, solid_, find_shells(surface_, solid_, slices_), inner_,
-                     options_.centering.step, classes_.crossings);
+    tighten_in_walls(graph_, inner_, find_shells(surface_, solid_, slices_), options_.centering.step,
+                     classes_.crossings);
     keep_type("tightening in walls");
   }
   void prune() {
@@ -144,8 +144,8 @@ class ArcRefinement {
     keep_type("zipping");
   }
   void complete() {
-    counts_.completed = complete_limbs(graph_, surface_, solid_, tips_, options_.limbs,
-                                       options_.centering.step, inner_, execution_);
+    counts_.completed =
+        complete_limbs(graph_, inner_, tips_, options_.limbs, options_.centering.step, execution_);
     keep_type("completion of limbs");
   }
   void extend() {

@@ -8,6 +8,7 @@
 #include "mspskel/base/even_directions.h"
 #include "mspskel/base/linkage.h"
 #include "mspskel/mesh/mesh_report.h"
+#include "mspskel/skeleton/detail/placed_skeleton.h"
 
 namespace mspskel {
 namespace detail {
@@ -27,6 +28,7 @@ inline double quantile(std::vector<double> values, double share) {
 }
 
 struct SkeletonSample {
+  Index component = kNone;
   bool inside = false;
   Vector3 position = Vector3::Zero();
   double radius = 0.0;
@@ -54,32 +56,35 @@ inline double off_centre(const BoundingVolumeHierarchy& hierarchy, const Vector3
 
 // Samples in the middle of equal steps of at most `spacing` along each edge; the nodes if there is no edge.
 // Every second sample of an edge gets its off-centre measure.
-inline std::vector<SkeletonSample> sample_skeleton(const BoundingVolumeHierarchy& hierarchy,
-                                                   const std::vector<Vector3>& node,
-                                                   const std::vector<std::array<Index, 2>>& edges,
-                                                   double spacing, const Execution& execution) {
+inline std::vector<SkeletonSample> sample_skeleton(const PlacedSkeleton& placed, double spacing,
+                                                   const Execution& execution) {
   struct Place {
+    Index node;  // at which its edge begins
     Vector3 position, tangent;
     bool measured;
   };
+  const std::vector<Vector3>& node = placed.graph.position;
   std::vector<Place> places;
-  for (const auto& [a, b] : edges) {
+  for (const auto& [a, b] : placed.graph.edges) {
     const Vector3 d = node[b] - node[a];
     const double length = d.norm();
     const Vector3 tangent = length > 0 ? Vector3(d / length) : Vector3::UnitX();
     // An edge far beyond the model may not fill the memory: 100 diagonals are sampled as densely as asked.
     const Index steps = static_cast<Index>(std::min(40000.0, std::max(1.0, std::ceil(length / spacing))));
     for (Index i = 0; i < steps; ++i)
-      places.push_back({node[a] + (i + 0.5) / steps * d, tangent, i % 2 == 0});
+      places.push_back({a, node[a] + (i + 0.5) / steps * d, tangent, i % 2 == 0});
   }
-  if (edges.empty())
-    for (const Vector3& p : node) places.push_back({p, Vector3::UnitX(), false});
+  if (placed.graph.edges.empty())
+    for (std::size_t i = 0; i < node.size(); ++i)
+      places.push_back({static_cast<Index>(i), node[i], Vector3::UnitX(), false});
   std::vector<SkeletonSample> samples(places.size());
   parallel_for(
       static_cast<Index>(places.size()), "check", execution, [] { return 0; },
       [&](Index i, int&) {
         const Place& place = places[i];
+        const BoundingVolumeHierarchy& hierarchy = placed.solid_of(place.node);
         SkeletonSample& s = samples[i];
+        s.component = placed.graph.component[place.node];
         s.position = place.position;
         s.inside = hierarchy.inside(place.position);
         if (!s.inside) return;
@@ -89,7 +94,7 @@ inline std::vector<SkeletonSample> sample_skeleton(const BoundingVolumeHierarchy
   return samples;
 }
 
-// Distances from every stride-th vertex to the union of the samples' balls.
+// Distances from every stride-th vertex to the union of the balls of its component's samples.
 inline std::vector<double> cover_distances(const SurfaceSnapshot& snapshot,
                                            const std::vector<SkeletonSample>& samples, double diagonal,
                                            const Execution& execution) {
@@ -98,21 +103,25 @@ inline std::vector<double> cover_distances(const SurfaceSnapshot& snapshot,
   parallel_for(
       static_cast<Index>(cover.size()), "check", execution, [] { return 0; },
       [&](Index i, int&) {
+        const Index component = snapshot.component[i * stride];
         double best = diagonal;
         for (const SkeletonSample& s : samples)
-          if (s.inside) best = std::min(best, (snapshot.position[i * stride] - s.position).norm() - s.radius);
+          if (s.inside && (component == kNone || s.component == component))
+            best = std::min(best, (snapshot.position[i * stride] - s.position).norm() - s.radius);
         cover[i] = std::max(0.0, best);
       });
   return cover;
 }
 
 // Leaf branches that end at a joint inside the solid and whose tip lies in that joint's maximal ball.
-inline Index count_spurs(const BoundingVolumeHierarchy& hierarchy, const std::vector<Vector3>& node,
-                         const std::vector<std::vector<Index>>& next, const std::vector<Branch>& all) {
+inline Index count_spurs(const PlacedSkeleton& placed, const std::vector<std::vector<Index>>& next,
+                         const std::vector<Branch>& all) {
+  const std::vector<Vector3>& node = placed.graph.position;
   Index spurs = 0;
   for (const Branch& branch : all) {
     Index tip = branch.nodes.front(), joint = branch.nodes.back();
     if (next[tip].size() != 1) std::swap(tip, joint);
+    const BoundingVolumeHierarchy& hierarchy = placed.solid_of(joint);
     if (next[tip].size() != 1 || next[joint].size() < 3 || !hierarchy.inside(node[joint])) continue;
     spurs += (node[tip] - node[joint]).norm() < hierarchy.distance(node[joint]);
   }
@@ -150,6 +159,24 @@ inline void check_topology(const SurfaceSnapshot& snapshot, const CurveSkeleton&
   checks.length = counts.length / checks.diagonal;
 }
 
+inline void check_containment(const PlacedSkeleton& placed, const CurveSkeleton& skeleton, double scale,
+                              SkeletonChecks& checks) {
+  const double diagonal = checks.diagonal / scale;
+  const std::vector<Vector3>& node = placed.graph.position;
+  for (Index i = 0; i < static_cast<Index>(node.size()); ++i) {
+    const BoundingVolumeHierarchy& hierarchy = placed.solid_of(i);
+    if (!hierarchy.inside(node[i])) ++checks.outside_nodes;
+    checks.radius_error =
+        std::max(checks.radius_error,
+                 std::abs(skeleton.nodes[i].radius / scale - hierarchy.distance(node[i])) / diagonal);
+  }
+  for (const auto& [a, b] : skeleton.edges) {
+    checks.longest_edge = std::max(checks.longest_edge, (node[a] - node[b]).norm() / diagonal);
+    if (placed.solid_of(a).segment_crosses(node[a], node[b])) ++checks.crossing_edges;
+  }
+  checks.contained = checks.outside_nodes == 0 && checks.crossing_edges == 0;
+}
+
 }  // namespace detail
 
 MSPSKEL_INLINE void validate(const CurveSkeleton& skeleton) {
@@ -179,21 +206,10 @@ MSPSKEL_INLINE SkeletonChecks check_skeleton(const SurfaceSnapshot& snapshot,
   checks.diagonal = diagonal * snapshot.frame.scale;
   detail::check_topology(snapshot, skeleton, checks);
 
-  std::vector<Vector3> node;
-  for (const SkeletonNode& n : skeleton.nodes) {
-    node.push_back(snapshot.frame.to_normalised(n.position));
-    if (!hierarchy.inside(node.back())) ++checks.outside_nodes;
-    checks.radius_error =
-        std::max(checks.radius_error,
-                 std::abs(n.radius / snapshot.frame.scale - hierarchy.distance(node.back())) / diagonal);
-  }
-  for (const auto& [a, b] : skeleton.edges) {
-    checks.longest_edge = std::max(checks.longest_edge, (node[a] - node[b]).norm() / diagonal);
-    if (hierarchy.segment_crosses(node[a], node[b])) ++checks.crossing_edges;
-  }
-  checks.contained = checks.outside_nodes == 0 && checks.crossing_edges == 0;
+  const detail::PlacedSkeleton placed(snapshot, hierarchy, skeleton, execution.progress);
+  detail::check_containment(placed, skeleton, snapshot.frame.scale, checks);
 
-  const auto samples = detail::sample_skeleton(hierarchy, node, skeleton.edges, 0.0025 * diagonal, execution);
+  const auto samples = detail::sample_skeleton(placed, 0.0025 * diagonal, execution);
   std::vector<double> off_centre;
   for (const detail::SkeletonSample& s : samples) {
     checks.inside += s.inside ? 1.0 / static_cast<double>(samples.size()) : 0.0;
@@ -208,8 +224,8 @@ MSPSKEL_INLINE SkeletonChecks check_skeleton(const SurfaceSnapshot& snapshot,
   checks.cover_p95 = detail::quantile(cover, 0.95) / diagonal;
 
   const auto all = branches(skeleton);
-  checks.spurs = detail::count_spurs(hierarchy, node, adjacency(skeleton), all);
-  checks.bend = detail::mean_turning(node, all, 0.01 * diagonal);
+  checks.spurs = detail::count_spurs(placed, adjacency(skeleton), all);
+  checks.bend = detail::mean_turning(placed.graph.position, all, 0.01 * diagonal);
   return checks;
 }
 

@@ -19,6 +19,8 @@ class BallTree {
     build(0, 0, balls_.size());
   }
 
+  bool empty() const { return balls_.empty(); }
+
   // The least |x - c| - r, infinity without balls; negative inside. O(log balls) where few are near.
   double distance_outside(const Vector3& x) const {
     double best = std::numeric_limits<double>::infinity();

@@ -21,11 +21,12 @@
 namespace mspskel {
 namespace detail {
 
-// The mesh's graph with every vertex moved to the middle of its inward chord. Nothing is computed before
-// prepare(), and distances to the surface only where a path comes by: many meshes need no path at all.
-class InnerGraph {
+// Paths along the mesh's graph with every vertex moved to the middle of its inward chord. Nothing is computed
+// before prepare(), and distances to the surface only where a path comes by: many meshes need no path at all.
+// Any surface within the solid will do: no vertex of it goes in or out.
+class InnerPaths {
  public:
-  InnerGraph(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
+  InnerPaths(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
              const Execution& execution = {})
       : surface_(surface), solid_(solid), execution_(execution) {}
 
@@ -40,21 +41,6 @@ class InnerGraph {
       if (usable(v)) index_.add(v, point_[v], point_[v]);
     index_.build();
     marks_.assign(surface_.position.size(), {});
-  }
-
-  const SurfaceSnapshot& surface() const { return surface_; }
-  bool usable(Index v) const { return clearance_[v] != 0; }
-  const Vector3& point(Index v) const { return point_[v]; }
-
-  // Among the vertices that `allowed` holds for; kNone if none of them has a point.
-  template <class Allowed>
-  Index nearest(const Vector3& x, Allowed allowed) const {
-    Index best = kNone;
-    for (Index v = 0; v < surface_.vertex_count(); ++v)
-      if (usable(v) && allowed(v) &&
-          (best == kNone || (point_[v] - x).squaredNorm() < (point_[best] - x).squaredNorm()))
-        best = v;
-    return best;
   }
 
   // Points strictly between a and b along the cheapest path, or false. Cost: what the search comes by.
@@ -133,6 +119,23 @@ class InnerGraph {
     return false;
   }
 
+ protected:
+  const SurfaceSnapshot& surface() const { return surface_; }
+  const BoundingVolumeHierarchy& solid() const { return solid_; }
+  bool usable(Index v) const { return clearance_[v] != 0; }
+  const Vector3& point(Index v) const { return point_[v]; }
+
+  // Among the vertices that `allowed` holds for; kNone if none of them has a point.
+  template <class Allowed>
+  Index nearest(const Vector3& x, Allowed allowed) const {
+    Index best = kNone;
+    for (Index v = 0; v < surface_.vertex_count(); ++v)
+      if (usable(v) && allowed(v) &&
+          (best == kNone || (point_[v] - x).squaredNorm() < (point_[best] - x).squaredNorm()))
+        best = v;
+    return best;
+  }
+
  private:
   static constexpr double kUnknown = -1.0;
 
@@ -204,6 +207,18 @@ class InnerGraph {
   BoxIndex index_;                 // of the usable points
   std::vector<Mark> marks_;        // per vertex; of `marked_` alone they mean something
   std::vector<Index> marked_;
+};
+
+// The inner paths of the surface that an arc graph's map is of. What reads that map takes surface, solid and
+// the vertices' points from here, so vertices of another surface cannot come in between.
+class InnerGraph : public InnerPaths {
+ public:
+  using InnerPaths::InnerPaths;
+  using InnerPaths::nearest;
+  using InnerPaths::point;
+  using InnerPaths::solid;
+  using InnerPaths::surface;
+  using InnerPaths::usable;
 };
 
 }  // namespace detail
