@@ -13,8 +13,9 @@ namespace mspskel {
 namespace detail {
 
 // What is left of each component without its limbs. A body that is longer than wide ends twice along its
-// principal axis; one with a single limb that is not ends opposite to that limb. A limb that
-// leaves the body near such an end, or has the end on its surface, stands for it.
+// principal axis. One that is not ends opposite to its limb if it has a single one, and twice along the axis
+// that stands apart if it has none. A limb that leaves the body near such an end, or has the end on its
+// surface, stands for it.
 class BodyEnds {
  public:
   BodyEnds(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
@@ -52,6 +53,7 @@ class BodyEnds {
     const Vector3 moment = solver.eigenvalues();  // ascending
     if (moment[2] >= kLonger * kLonger * moment[1])
       for (const double sign : {-1.0, 1.0}) add_end(component, sign * solver.eigenvectors().col(2), ends);
+    if (body.limbs == 0 && ends.empty()) add_ends_of_axis(component, solver, ends);
     if (body.limbs != 1 || !ends.empty()) return ends;
     for (const FoundLimb& limb : limbs_)
       if (limb.tip.kind == TipKind::kLimb && surface_.component[limb.tip.vertex] == component)
@@ -69,13 +71,29 @@ class BodyEnds {
 
   static constexpr double kLonger = 1.4;  // length over width
 
-  void add_end(Index component, const Vector3& direction, std::vector<LimbTip>& ends) const {
+  // Of a squat body, where one principal axis differs from the other two, and the way along it is longer than
+  // the ball in the middle is wide: in a plate it is not.
+  void add_ends_of_axis(Index component, const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>& solver,
+                        std::vector<LimbTip>& ends) const {
+    constexpr double kApart = 1.1, kStretch = 1.25;
+    const Vector3 moment = solver.eigenvalues();  // ascending
+    const bool long_one = moment[2] * moment[0] > moment[1] * moment[1];
+    if (moment[long_one ? 2 : 1] < kApart * kApart * moment[long_one ? 1 : 0]) return;
+    const Vector3 axis = solver.eigenvectors().col(long_one ? 2 : 0), centre = body_[component].centre;
+    const auto ahead = solid_.first_hit(centre, axis), back = solid_.first_hit(centre, -axis);
+    if (!ahead || !back || ahead->distance + back->distance < 2 * kStretch * solid_.distance(centre)) return;
+    for (const double sign : {-1.0, 1.0}) add_end(component, sign * axis, ends, 1.0);
+  }
+
+  // The end must be at least so many radii of the ball in the middle away.
+  void add_end(Index component, const Vector3& direction, std::vector<LimbTip>& ends,
+               double least = kLonger) const {
     constexpr double kNear = 0.4;   // of the way to the end: a limb that leaves beyond it stands for the end
     constexpr double kAhead = 0.1;  // radii of the ball in the middle before the surface
     const Vector3& centre = body_[component].centre;
     const auto hit = solid_.first_hit(centre, direction);
     const double radius = solid_.distance(centre);
-    if (!hit || hit->distance < kLonger * radius) return;
+    if (!hit || hit->distance < least * radius) return;
     for (const FoundLimb& limb : limbs_)
       if (surface_.component[limb.tip.vertex] == component &&
           (limb.root - centre).dot(direction) > kNear * hit->distance)

@@ -47,7 +47,7 @@ MSPSKEL_INLINE std::vector<UncoveredPart> find_uncovered_parts(const SurfaceSnap
       [&](Index v, int) {
         if (surface.vertex_halfedge[v] == kNone) return;
         const detail::BallTree& own = balls[surface.component[v]];
-        if (!own.empty()) outside[v] = own.distance_outside(surface.position[v]);
+        if (!own.empty()) outside[v] = own.nearest(surface.position[v]).distance;
       });
 
   std::vector<Index> beyond;
@@ -56,10 +56,13 @@ MSPSKEL_INLINE std::vector<UncoveredPart> find_uncovered_parts(const SurfaceSnap
   const std::vector<double> diagonal = detail::component_diagonals(surface);
   std::vector<UncoveredPart> found;
   for (const detail::SlenderPart& part :
-       detail::slender_parts(surface, outside, std::move(beyond), 2 * kMissedWidths,
-                             [&](Index v) { return options.smallest * diagonal[surface.component[v]]; }))
-    found.push_back({part.top, surface.frame.to_model(surface.position[part.top]),
-                     surface.frame.scale * part.depth, 0.5 * part.slenderness});
+       detail::slender_parts(surface, outside, std::move(beyond),
+                             [&](Index v) { return options.smallest * diagonal[surface.component[v]]; })) {
+    const double widths = 0.5 * part.slenderest.slenderness();
+    if (widths >= kMissedWidths)
+      found.push_back({part.top, surface.frame.to_model(surface.position[part.top]),
+                       surface.frame.scale * part.slenderest.depth, widths});
+  }
   std::sort(found.begin(), found.end(), [](const UncoveredPart& a, const UncoveredPart& b) {
     return a.widths != b.widths ? a.widths > b.widths : a.vertex < b.vertex;
   });

@@ -8,6 +8,7 @@
 #include "mspskel/base/linkage.h"
 #include "mspskel/base/value_at_rank.h"
 #include "mspskel/limbs/detail/body_ends.h"
+#include "mspskel/limbs/detail/end_target.h"
 #include "mspskel/limbs/detail/limb_search.h"
 #include "mspskel/mesh/inner_distance.h"
 
@@ -186,12 +187,11 @@ MSPSKEL_INLINE std::vector<LimbTip> find_limb_tips(const SurfaceSnapshot& surfac
   const std::vector<detail::FoundLimb> limbs =
       detail::LimbTipSearch(surface, solid, slices, options, distance).run();
   std::vector<LimbTip> tips;
-  for (const detail::FoundLimb& limb : limbs) tips.push_back(limb.tip);
-  // Where few vertices make the end, their mean lies on the surface but for rounding.
-  constexpr double kLeastClearance = 0.05;  // half widths
-  for (LimbTip& tip : tips)
-    if (!solid.inside(tip.target) || solid.distance(tip.target) < kLeastClearance * tip.measures.half_width)
-      tip.target = surface.position[tip.vertex];
+  for (const detail::FoundLimb& limb : limbs) {
+    tips.push_back(limb.tip);
+    tips.back().position = surface.position[limb.tip.vertex];
+    detail::keep_target_well_inside(tips.back(), solid);
+  }
   const std::vector<bool> shells = find_shells(surface, solid, slices);
   drop_tips_in_walls(surface, solid, shells, tips);
   detail::add_body_ends(surface, shells, detail::BodyEnds(surface, solid, limbs), tips);

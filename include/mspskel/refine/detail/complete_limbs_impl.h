@@ -7,6 +7,7 @@
 #include "mspskel/arcs/detail/graph_points.h"
 #include "mspskel/arcs/detail/polyline_ends.h"
 #include "mspskel/base/linkage.h"
+#include "mspskel/limbs/detail/end_target.h"
 #include "mspskel/limbs/detail/slender_parts.h"
 #include "mspskel/refine/detail/arc_leaves.h"
 #include "mspskel/refine/detail/arc_sections.h"
@@ -32,29 +33,41 @@ class LimbCompletion {
     const ArcBalls balls(graph, solid_, execution);
     const BallTree tree(all_balls(graph, balls));
     outside_.assign(surface_.position.size(), 0.0);
+    carrier_ = outside_;
     parallel_for(
         surface_.vertex_count(), "arcs", execution, [] { return 0; },
         [&](Index v, int) {
           if (graph.arc_of_vertex[v] == kNone && graph.hub_of_vertex[v] == kNone) return;
-          outside_[v] = tree.distance_outside(surface_.position[v]);
+          const BallTree::Nearest nearest = tree.nearest(surface_.position[v]);
+          outside_[v] = nearest.distance;
+          carrier_[v] = nearest.radius;
         });
     hub_component_ = components_of_pieces(graph, surface_);
   }
 
   Index run() {
     constexpr int kTries = 64;
+    constexpr double kLeft = 0.25;  // of its reach: less is left where another arc stands for the part
     Index added = reach_tips();
-    for (int i = 0; i < kTries; ++i) {
-      const std::optional<SlenderPart> part = deepest_part();
-      if (!part) break;
-      const double before = outside_[part->top];
-      LimbTip tip = new_tip(*part);
-      if (try_limb(part->top)) {
-        tips_.push_back(std::move(tip));
-        ++added;
+    for (int tries = 0; tries < kTries;) {
+      // All are told before any gets its arc, whose balls may come near the others: equal limbs are told
+      // alike.
+      const std::vector<LimbTip> found = uncovered_limbs();
+      if (found.empty()) break;
+      std::vector<double> reach;
+      for (const LimbTip& tip : found) reach.push_back(outside_[tip.vertex]);
+      for (std::size_t i = 0; i < found.size() && tries < kTries; ++i) {
+        const Index top = found[i].vertex;
+        if (outside_[top] < kLeft * reach[i]) continue;
+        ++tries;
+        if (try_limb(top)) {
+          aim_at_tips(graph_, solid_, {found[i]}, step_);
+          tips_.push_back(found[i]);
+          ++added;
+        }
+        // Tried once, whether or not: an arc may end far from what it was led to.
+        if (outside_[top] > 0.5 * reach[i]) dismiss(top);
       }
-      // Tried once, whether or not: an arc may end far from what it was led to.
-      if (outside_[part->top] > 0.5 * before) dismiss(part->top);
     }
     return added;
   }
@@ -91,56 +104,64 @@ class LimbCompletion {
     return false;
   }
 
-  static constexpr double kNever = -std::numeric_limits<double>::infinity();
+  // The level at which a part is a limb: slender by itself, or a bump that is no wider than what carries it.
+  std::optional<PartLevel> limb_level(const SlenderPart& part) const {
+    if (part.slenderest.slenderness() >= uncovered_slenderness(options_)) return part.slenderest;
+    const PartLevel& level = part.narrowest;
+    if (level.depth > 0 && is_bump(level, 2 * kPi * carrier_[part.top], options_)) return level;
+    return std::nullopt;
+  }
 
-  // Of the parts that are limbs, measured beyond the balls, the deepest.
-  std::optional<SlenderPart> deepest_part() const {
+  // The parts that are limbs, measured beyond the balls, the deepest first.
+  std::vector<LimbTip> uncovered_limbs() const {
     std::vector<Index> beyond;
     for (Index v = 0; v < surface_.vertex_count(); ++v)
       if (outside_[v] > 0) beyond.push_back(v);
     const double least = std::max(kLeastProtrusion * options_.smallest, step_);
-    const std::vector<SlenderPart> parts = slender_parts(
-        surface_, outside_, std::move(beyond), uncovered_slenderness(options_), [&](Index) { return least; });
-    const auto deepest =
-        std::max_element(parts.begin(), parts.end(), [](const SlenderPart& a, const SlenderPart& b) {
-          return a.depth != b.depth ? a.depth < b.depth : a.top > b.top;
-        });
-    if (deepest == parts.end()) return std::nullopt;
-    return *deepest;
+    std::vector<LimbTip> limbs;
+    for (const SlenderPart& part :
+         slender_parts(surface_, outside_, std::move(beyond), [&](Index) { return least; }))
+      if (const std::optional<PartLevel> level = limb_level(part)) limbs.push_back(new_tip(part.top, *level));
+    std::sort(limbs.begin(), limbs.end(), [](const LimbTip& a, const LimbTip& b) {
+      return a.measures.depth != b.measures.depth ? a.measures.depth > b.measures.depth : a.vertex < b.vertex;
+    });
+    return limbs;
   }
 
   // Its cap and target are as those of limbs, on what hangs together with the top.
-  LimbTip new_tip(const SlenderPart& part) const {
+  LimbTip new_tip(Index top, const PartLevel& level) const {
     LimbTip tip;
-    tip.vertex = part.top;
-    tip.position = surface_.position[part.top];
-    tip.measures.depth = part.depth;
-    tip.measures.half_width = part.radius;
-    tip.measures.slenderness = part.slenderness;
-    const double cap = std::min(0.5 * part.depth, 1.5 * part.radius), end = std::min(cap, kEnd * part.radius);
+    tip.vertex = top;
+    tip.position = surface_.position[top];
+    tip.measures.depth = level.depth;
+    tip.measures.slenderness = level.slenderness();
+    const double radius = level.depth / level.slenderness();
+    tip.measures.half_width = radius;
+    const double cap = std::min(0.5 * level.depth, 1.5 * radius), end = std::min(cap, kEnd * radius);
     double area = 0;
     std::vector<std::uint8_t> seen(surface_.position.size(), 0);
-    tip.cap.assign(1, part.top);
-    seen[part.top] = 1;
+    tip.cap.assign(1, top);
+    seen[top] = 1;
     for (std::size_t i = 0; i < tip.cap.size(); ++i) {
       const Index v = tip.cap[i];
-      if (outside_[part.top] - outside_[v] <= end) {
+      if (outside_[top] - outside_[v] <= end) {
         tip.target += surface_.vertex_area[v] * surface_.position[v];
         area += surface_.vertex_area[v];
       }
       for_each_neighbour(surface_, v, [&](Index w) {
-        if (seen[w] || outside_[part.top] - outside_[w] > cap) return;
+        if (seen[w] || outside_[top] - outside_[w] > cap) return;
         seen[w] = 1;
         tip.cap.push_back(w);
       });
     }
     tip.target /= area;
+    keep_target_well_inside(tip, solid_);
     return tip;
   }
 
   void cover(const BallChain& balls) {
     for (std::size_t v = 0; v < outside_.size(); ++v)
-      outside_[v] = balls.distance_outside(surface_.position[v], kNever, outside_[v]);
+      balls.find_nearest(surface_.position[v], outside_[v], carrier_[v]);
   }
 
   // What lies round a vertex whose arc would be insignificant is not tried again.
@@ -227,6 +248,7 @@ class LimbCompletion {
   InnerGraph& inner_;
   std::vector<Index> hub_component_;
   std::vector<double> outside_;  // per vertex: distance beyond all balls, at most 0 where done with
+  std::vector<double> carrier_;  // per vertex: radius of the ball that it is least beyond
 };
 
 }  // namespace detail

@@ -21,12 +21,18 @@ class BallTree {
 
   bool empty() const { return balls_.empty(); }
 
-  // The least |x - c| - r, infinity without balls; negative inside. O(log balls) where few are near.
-  double distance_outside(const Vector3& x) const {
-    double best = std::numeric_limits<double>::infinity();
+  struct Nearest {
+    double distance = std::numeric_limits<double>::infinity();  // |x - c| - r; negative inside
+    double radius = 0.0;                                        // r
+  };
+
+  // The ball that x is least outside of. O(log balls) where few are near.
+  Nearest nearest(const Vector3& x) const {
+    Nearest best;
     if (!balls_.empty()) search(0, 0, balls_.size(), x, best);
     return best;
   }
+  double distance_outside(const Vector3& x) const { return nearest(x).distance; }
 
  private:
   struct Bounds {
@@ -59,10 +65,13 @@ class BallTree {
     build(2 * at + 2, middle, end);
   }
 
-  void search(std::size_t at, std::size_t begin, std::size_t end, const Vector3& x, double& best) const {
-    if (bounds_[at].distance_outside(x) >= best) return;
+  void search(std::size_t at, std::size_t begin, std::size_t end, const Vector3& x, Nearest& best) const {
+    if (bounds_[at].distance_outside(x) >= best.distance) return;
     if (end - begin <= kLeaf) {
-      for (std::size_t i = begin; i < end; ++i) best = std::min(best, balls_[i].distance_outside(x));
+      for (std::size_t i = begin; i < end; ++i) {
+        const double distance = balls_[i].distance_outside(x);
+        if (distance < best.distance) best = {distance, balls_[i].radius};
+      }
       return;
     }
     const std::size_t middle = begin + (end - begin) / 2, left = 2 * at + 1, right = left + 1;
