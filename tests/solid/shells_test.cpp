@@ -1,8 +1,11 @@
 // Vessels: the law that their arcs follow from the shape and not from where the collapse put them.
 #include "mspskel/solid/shells.h"
 
+#include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <utility>
 
 #include "mspskel/arcs/cycle_rank.h"
 #include "mspskel/arcs/tighten_walls.h"
@@ -90,24 +93,139 @@ TEST_CASE("A glass keeps what its axis has of the solid, whatever the triangles"
     }
 }
 
-TEST_CASE("A cup's loop runs straight down the wall, and an arc leads on to the middle of the floor") {
-  for (const Index vertices : {4000, 7000})
-    for (const std::uint64_t seed : {0, 7}) {
-      DefaultMesh mesh = sample("cup", vertices);
-      if (seed > 0) mesh = renumbered(jittered(mesh, seed, 0.01), seed);
-      const ExtractResult result = extract_skeleton(mesh);
-      const GraphCounts counts = count_graph(result.skeleton);
-      CHECK(counts.leaves == 1);
-      CHECK(counts.cycles == 1);
-      // The sample stands on the y axis and its handle lies in the plane z = 0, which no arc leaves by more
-      // than half the wall.
-      for (const SkeletonNode& node : result.skeleton.nodes) CHECK(std::abs(node.position.z()) < 0.07);
-      // Handle 2.0, wall 1.2, down to the floor 0.5, along it 0.8.
-      CHECK(counts.length < 5.0);
-      const auto next = adjacency(result.skeleton);
-      for (std::size_t i = 0; i < next.size(); ++i)
-        if (next[i].size() == 1) CHECK((result.skeleton.nodes[i].position - Vector3(0, -1, 0)).norm() < 0.3);
+namespace {
+
+// A vessel turned round the z axis: the middle of its wall, from the middle of the floor to the rim.
+struct Vessel {
+  std::vector<Vector2> wall;  // distance from the axis, height
+  struct Handle {
+    double angle;
+    std::size_t low, high;  // points of the wall where it leaves and returns
+    double reach, radius;   // how far it stands out, half its thickness
+  };
+  std::vector<Handle> handles;
+  std::vector<std::pair<BallNode, BallNode>> spouts;
+
+  Vector3 at(double angle, const Vector2& x) const {
+    return {x.x() * std::cos(angle), x.x() * std::sin(angle), x.y()};
+  }
+  // Half an ellipse over the line between its ends.
+  std::vector<Vector3> line(const Handle& h) const {
+    std::vector<Vector3> points;
+    constexpr int kSteps = 12;
+    for (int i = 0; i <= kSteps; ++i) {
+      const double t = kPi * i / kSteps, share = (1 - std::cos(t)) / 2;
+      const Vector2 x =
+          wall[h.low] + share * (wall[h.high] - wall[h.low]) + Vector2(h.reach * std::sin(t), 0);
+      points.push_back(at(h.angle, x));
     }
+    return points;
+  }
+  double shortest_loop(const Handle& h) const {
+    double length = 0;
+    for (std::size_t i = h.low; i < h.high; ++i) length += (wall[i + 1] - wall[i]).norm();
+    const std::vector<Vector3> points = line(h);
+    for (std::size_t i = 1; i < points.size(); ++i) length += (points[i] - points[i - 1]).norm();
+    return length;
+  }
+  double distance(const Vector3& p) const {
+    const Vector3 q(std::hypot(p.x(), p.y()), 0, p.z());
+    double shell = 1e9, inside_of_wall = 1e9;
+    for (std::size_t i = 1; i < wall.size(); ++i) {
+      const Vector3 a(wall[i - 1].x(), 0, wall[i - 1].y()), b(wall[i].x(), 0, wall[i].y());
+      shell = std::min(shell, round_cone_distance(q, {a, kWall / 2}, {b, kWall / 2}));
+    }
+    // Handles and spouts end in the wall: what stands before it, seen from the axis, is cut off.
+    for (std::size_t i = 1; i < wall.size(); ++i)
+      if (std::min(wall[i - 1].y(), wall[i].y()) <= p.z() &&
+          p.z() <= std::max(wall[i - 1].y(), wall[i].y()) && wall[i].y() != wall[i - 1].y()) {
+        const double share = (p.z() - wall[i - 1].y()) / (wall[i].y() - wall[i - 1].y());
+        inside_of_wall =
+            std::min(inside_of_wall, q.x() - (wall[i - 1].x() + share * (wall[i].x() - wall[i - 1].x())));
+      }
+    double tubes = 1e9;
+    for (const Handle& h : handles) {
+      const std::vector<Vector3> points = line(h);
+      for (std::size_t i = 1; i < points.size(); ++i)
+        tubes = std::min(tubes, round_cone_distance(p, {points[i - 1], h.radius}, {points[i], h.radius}));
+    }
+    for (const auto& [from, to] : spouts) tubes = std::min(tubes, round_cone_distance(p, from, to));
+    return std::min(shell, std::max(tubes, -inside_of_wall));
+  }
+  DefaultMesh mesh(Index vertices) const {
+    ImplicitSolid solid;
+    solid.low = {-2.6, -2.6, -0.3};
+    solid.high = {2.6, 2.6, 2.3};
+    solid.value = [this](const Vector3& p) { return distance(p); };
+    return to_mesh(polygonise(solid, vertices, kWall / 2));
+  }
+};
+
+// Of the shortest cycle through the edge nearest to a place, model units.
+double loop_through(const CurveSkeleton& skeleton, const Vector3& place) {
+  const auto length = [&](const std::array<Index, 2>& e) {
+    return (skeleton.nodes[e[0]].position - skeleton.nodes[e[1]].position).norm();
+  };
+  const auto away = [&](const std::array<Index, 2>& e) {
+    return ((skeleton.nodes[e[0]].position + skeleton.nodes[e[1]].position) / 2 - place).norm();
+  };
+  const std::array<Index, 2> cut =
+      *std::min_element(skeleton.edges.begin(), skeleton.edges.end(),
+                        [&](const auto& a, const auto& b) { return away(a) < away(b); });
+  std::vector<double> way(skeleton.nodes.size(), 1e9);
+  way[cut[0]] = 0;
+  for (bool shorter = true; shorter;) {
+    shorter = false;
+    for (const auto& edge : skeleton.edges)
+      for (const int end : {0, 1})
+        if (edge != cut && way[edge[end]] + length(edge) < way[edge[1 - end]]) {
+          way[edge[1 - end]] = way[edge[end]] + length(edge);
+          shorter = true;
+        }
+  }
+  return way[cut[1]] + length(cut);
+}
+
+}  // namespace
+
+TEST_CASE("Loops of mugs, vases and teapots are at most 1.3 times as long as the shortest of their class") {
+  const Vessel mug{{{0, 0}, {0.8, 0}, {0.8, 0.4}, {0.8, 1.3}, {0.8, 1.7}}, {{0.4, 2, 3, 0.6, 0.13}}, {}};
+  const Vessel vase{
+      {{0, 0}, {0.5, 0}, {0.9, 0.6}, {0.9, 1.0}, {0.5, 1.5}, {0.6, 2.0}}, {{0, 3, 5, 0.5, 0.1}}, {}};
+  const Vessel teapot{{{0, 0}, {0.6, 0}, {1, 0.5}, {0.9, 1.0}, {0.6, 1.4}, {0.6, 1.7}},
+                      {{0, 2, 4, 0.8, 0.12}},
+                      {{{{-0.9, 0, 0.6}, 0.2}, {{-1.9, 0, 1.3}, 0.12}}}};
+  for (const Vessel& vessel : {mug, vase, teapot}) {
+    const ExtractResult result = extract_skeleton(vessel.mesh(7000));
+    CHECK(count_graph(result.skeleton).cycles == static_cast<Index>(vessel.handles.size()));
+    for (const Vessel::Handle& handle : vessel.handles) {
+      const std::vector<Vector3> line = vessel.line(handle);
+      const double loop = loop_through(result.skeleton, line[line.size() / 2]);
+      INFO("handle at " << handle.angle << " of a vessel with " << vessel.wall.size() << " points");
+      CHECK(loop <= 1.3 * vessel.shortest_loop(handle));
+      CHECK(loop >= 0.8 * vessel.shortest_loop(handle));
+    }
+  }
+}
+
+TEST_CASE("A cup's loop runs straight down the wall, and an arc leads on to the middle of the floor") {
+  for (const Index vertices : {4000, 7000}) {
+    const std::uint64_t seed = vertices == 4000 ? 0 : 7;
+    DefaultMesh mesh = sample("cup", vertices);
+    if (seed > 0) mesh = renumbered(jittered(mesh, seed, 0.01), seed);
+    const ExtractResult result = extract_skeleton(mesh);
+    const GraphCounts counts = count_graph(result.skeleton);
+    CHECK(counts.leaves == 1);
+    CHECK(counts.cycles == 1);
+    // The sample stands on the y axis and its handle lies in the plane z = 0, which no arc leaves by more
+    // than half the wall.
+    for (const SkeletonNode& node : result.skeleton.nodes) CHECK(std::abs(node.position.z()) < 0.07);
+    // Handle 2.0, wall 1.2, down to the floor 0.5, along it 0.8.
+    CHECK(counts.length < 5.0);
+    const auto next = adjacency(result.skeleton);
+    for (std::size_t i = 0; i < next.size(); ++i)
+      if (next[i].size() == 1) CHECK((result.skeleton.nodes[i].position - Vector3(0, -1, 0)).norm() < 0.3);
+  }
 }
 
 TEST_CASE("A loop round the far side of a cup's wall is drawn to the near one") {
