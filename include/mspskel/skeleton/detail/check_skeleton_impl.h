@@ -211,10 +211,12 @@ MSPSKEL_INLINE SkeletonChecks check_skeleton(const SurfaceSnapshot& snapshot,
 
   const auto samples = detail::sample_skeleton(placed, 0.0025 * diagonal, execution);
   std::vector<double> off_centre;
+  Index inside = 0;
   for (const detail::SkeletonSample& s : samples) {
-    checks.inside += s.inside ? 1.0 / static_cast<double>(samples.size()) : 0.0;
+    inside += s.inside;
     if (s.off_centre >= 0) off_centre.push_back(s.off_centre);
   }
+  checks.inside = static_cast<double>(inside) / static_cast<double>(samples.size());
   checks.centredness_samples = static_cast<Index>(off_centre.size());
   checks.off_centre_mean = detail::mean(off_centre);
   checks.off_centre_p90 = detail::quantile(off_centre, 0.9);
