@@ -215,7 +215,7 @@ void write_files(const ExtractSettings& settings, const Extraction& extraction, 
   const CurveSkeleton skeleton = made.input.of_file(made.result.skeleton);
   for (const std::string& output : settings.outputs) {
     if (is_page(output))
-      write_viewer_page(output, make_page_scene(settings.input, made.result, extraction.facts,
+      write_viewer_page(output, make_page_scene(settings.input, made, extraction.facts,
                                                 extraction.segmentation ? &*extraction.segmentation : nullptr,
                                                 extraction.rig ? &*extraction.rig : nullptr));
     else if (is_glb(output))

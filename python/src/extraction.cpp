@@ -141,7 +141,8 @@ nb::bytes page_of(Extraction& self) {
   std::string page;
   {
     const nb::gil_scoped_release unlocked;
-    page = format_viewer_page(cli::make_page_scene(self.name, self.made.result, self.facts()));
+    const cli::Json facts = self.facts();  // completes the certificate
+    page = format_viewer_page(cli::make_page_scene(self.name, self.made, facts));
   }
   return nb::bytes(page.data(), page.size());
 }

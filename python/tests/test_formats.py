@@ -49,6 +49,16 @@ def test_files(suffix, ring, tmp_path):
         assert np.array_equal(back.vertices, ring.vertices) and len(back.cycles) == 1
 
 
+def test_trimesh_reads_ply(ring, tmp_path):
+    trimesh = pytest.importorskip("trimesh")
+    path = trimesh.load(ring.to(tmp_path / "ring.ply"))
+    assert isinstance(path, trimesh.path.Path3D)
+    node_at = {tuple(point): node for node, point in enumerate(ring.vertices)}
+    ways = [[node_at[tuple(path.vertices[i])] for i in entity.points] for entity in path.entities]
+    assert {tuple(sorted(edge)) for way in ways for edge in zip(way, way[1:])} == {tuple(sorted(edge)) for edge in ring.edges.tolist()}
+    assert np.array_equal(path.metadata["_ply_raw"]["vertex"]["data"]["radius"], ring.radius)
+
+
 def test_what_cannot_be_written(ring, tmp_path):
     with pytest.raises(mspskel.UsageError, match="known extensions are"):
         ring.to(tmp_path / "ring.xyz")

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "mspskel/mesh/self_intersection.h"
 #include "mspskel/render/render.h"
 #include "mspskel/rig/make_rig.h"
 
@@ -42,6 +43,37 @@ ViewerPlaces faces_without_area(const SurfaceSnapshot& surface) {
   return places;
 }
 
+// One place for all faces that hang together.
+ViewerPlaces crossings(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid) {
+  ViewerPlaces places{"the surface crosses itself", {}};
+  std::vector<char> waiting(static_cast<std::size_t>(surface.face_count()), 0);
+  const std::vector<Index> faces = find_self_intersecting_faces(surface, solid);
+  for (const Index f : faces) waiting[f] = 1;
+  for (const Index first : faces) {
+    if (!waiting[first]) continue;
+    places.positions.push_back(surface.frame.to_model(surface.position[surface.origin[3 * first]]));
+    std::vector<Index> stack{first};
+    waiting[first] = 0;
+    while (!stack.empty()) {
+      const Index f = stack.back();
+      stack.pop_back();
+      for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+        const Index g = surface.twin[h] / 3;
+        if (!waiting[g]) continue;
+        waiting[g] = 0;
+        stack.push_back(g);
+      }
+    }
+  }
+  return places;
+}
+
+ViewerPlaces parts_without_arc(const std::vector<UncoveredPart>& parts) {
+  ViewerPlaces places{"a part has no arc", {}};
+  for (const UncoveredPart& part : parts) places.positions.push_back(part.position);
+  return places;
+}
+
 // The part of a vertex is that of one of its faces.
 void add_parts(const SurfaceSnapshot& surface, const Segmentation& parts, ViewerScene& scene) {
   for (Index v = 0; v < surface.vertex_count(); ++v) {
@@ -74,8 +106,9 @@ bool is_page(const std::string& path) {
   return extension == ".html" || extension == ".htm";
 }
 
-ViewerScene make_page_scene(const std::string& input, const ExtractResult& result, const Json& report,
+ViewerScene make_page_scene(const std::string& input, const CheckedExtraction& made, const Json& report,
                             const Segmentation* parts, const Rig* rig) {
+  const ExtractResult& result = made.result;
   const NormalisedFrame& frame = result.surface.frame;
   ViewerScene scene;
   scene.title = input == "-" ? "standard input" : std::filesystem::path(input).filename().string();
@@ -93,7 +126,9 @@ ViewerScene make_page_scene(const std::string& input, const ExtractResult& resul
     add_parts(result.surface, parts ? *parts : segment_surface(result.surface, result.skeleton), scene);
     add_rig(rig ? *rig : make_rig(result.surface, result.skeleton), scene);
   }
-  scene.places = {vertices_without_slice(result), faces_without_area(result.surface)};
+  scene.places = {parts_without_arc(made.uncovered), vertices_without_slice(result),
+                  faces_without_area(result.surface)};
+  if (made.certificate.self_intersecting) scene.places.push_back(crossings(result.surface, *result.solid));
   scene.report = report_text(report);
   return scene;
 }

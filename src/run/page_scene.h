@@ -1,7 +1,7 @@
 // What a run found, as a page to look at.
 #pragma once
 
-#include "mspskel/extract_skeleton.h"
+#include "checked_extraction.h"
 #include "mspskel/rig/rig.h"
 #include "mspskel/segment/segment_surface.h"
 #include "mspskel/view/viewer_page.h"
@@ -12,10 +12,11 @@ namespace mspskel::cli {
 // Whether the path is that of a page: by extension, in any case.
 bool is_page(const std::string& path);
 
-// `input` is the mesh's file, or - for standard input; `report` is that of make_report or with_costs.
+// `input` is the mesh's file, or - for standard input; `made` has its full certificate (CertificateDepth);
+// `report` is that of make_report or with_costs.
 // Parts and rig are those given, or else made as the options' defaults have them; without a skeleton there
 // are none.
-ViewerScene make_page_scene(const std::string& input, const ExtractResult& result, const Json& report,
+ViewerScene make_page_scene(const std::string& input, const CheckedExtraction& made, const Json& report,
                             const Segmentation* parts = nullptr, const Rig* rig = nullptr);
 
 }  // namespace mspskel::cli

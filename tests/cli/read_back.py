@@ -1,13 +1,15 @@
-"""Reads a.vtp, a.swc, a.graphml and a.json of a folder and compares them with a.skel. Run by readers.py."""
+"""Reads a.vtp, a.swc and the other files of a folder and compares them with a.skel. Run by readers.py."""
 import collections
 import json
 import math
 import pathlib
+import struct
 import sys
 
 import networkx
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOGeometry import vtkOBJReader
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 folder = pathlib.Path(sys.argv[1])
@@ -95,9 +97,57 @@ def check_networkx(nodes, edges):
             assert np.array_equal([*place, facts["radius"]], nodes[v])
 
 
+def check_obj(nodes, edges):
+    """Which has no radius."""
+    reader = vtkOBJReader()
+    reader.SetFileName(str(folder / "a.obj"))
+    reader.Update()
+    data = reader.GetOutput()
+    assert np.allclose(vtk_to_numpy(data.GetPoints().GetData()), nodes[:, :3], rtol=1e-6)  # VTK keeps them as floats
+    lines = vtk_to_numpy(data.GetLines().GetConnectivityArray()).reshape(-1, 2).tolist()
+    assert {tuple(sorted(line)) for line in lines} == edges and len(lines) == len(edges)
+
+
+def check_glb(nodes, edges):
+    """By the letter of glTF 2.0: a header, a chunk of JSON, a chunk of bytes."""
+    data = (folder / "a.glb").read_bytes()
+    magic, version, length, size, kind = struct.unpack("<4sII I4s", data[:20])
+    assert (magic, version, length, kind) == (b"glTF", 2, len(data), b"JSON")
+    scene, binary = json.loads(data[20 : 20 + size]), data[28 + size :]
+    types, widths = {5125: np.uint32, 5126: np.float32, 5123: np.uint16}, {"SCALAR": 1, "VEC3": 3}
+
+    def array(index):
+        accessor = scene["accessors"][index]
+        begin = scene["bufferViews"][accessor["bufferView"]].get("byteOffset", 0) + accessor.get("byteOffset", 0)
+        width = widths[accessor["type"]]
+        return np.frombuffer(binary, types[accessor["componentType"]], accessor["count"] * width, begin).reshape(-1, width)
+
+    node = next(node for node in scene["nodes"] if scene["meshes"][node.get("mesh", 0)]["name"] == "skeleton")
+    (lines,) = scene["meshes"][node["mesh"]]["primitives"]
+    assert lines["mode"] == 1
+    assert np.array_equal(array(lines["attributes"]["POSITION"]) + np.float32(node.get("translation", [0, 0, 0])), np.float32(nodes[:, :3]))
+    assert np.array_equal(array(lines["attributes"]["_RADIUS"])[:, 0], np.float32(nodes[:, 3]))
+    assert {tuple(sorted(e)) for e in array(lines["indices"]).reshape(-1, 2).tolist()} == edges
+
+
+def check_polylines(name, nodes, edges):
+    """Which have no radius: a line each, the number of points first."""
+    node_at, read = {tuple(p[:3]): v for v, p in enumerate(nodes)}, []
+    for line in (folder / name).read_text().splitlines():
+        words = line.split()
+        assert len(words) == 1 + 3 * int(words[0])
+        way = [node_at[tuple(map(float, words[i : i + 3]))] for i in range(1, len(words), 3)]
+        read += [tuple(sorted(e)) for e in zip(way, way[1:])]
+    assert set(read) == edges and len(read) == len(edges)
+
+
 nodes, edges = read_skel()
 counted = collections.Counter(v for e in edges for v in e)
 degree = np.array([counted[v] for v in range(len(nodes))])
 check_vtp(nodes, edges, degree)
 check_swc(nodes, edges, degree)
 check_networkx(nodes, edges)
+check_obj(nodes, edges)
+check_glb(nodes, edges)
+for name in ("a.cgal", "a.polylines.txt"):
+    check_polylines(name, nodes, edges)

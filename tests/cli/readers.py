@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Files are read back by the programs that they are for: VTK, networkx, and a strict SWC checker.
+"""Files are read back by the programs that they are for: VTK, networkx, and strict checkers of SWC, glTF and
+polylines.
 
 usage: readers.py PROGRAM SOURCE_DIR CACHE_DIR
 Exits with 77 and a word where the readers cannot be installed.
@@ -37,7 +38,7 @@ def main():
         return SKIP
     with tempfile.TemporaryDirectory(prefix="mspskel-readers-") as name:
         folder = pathlib.Path(name)
-        files = [folder / f"a.{ending}" for ending in ("skel", "vtp", "swc", "graphml", "json")]
+        files = [folder / f"a.{ending}" for ending in ("skel", "vtp", "swc", "graphml", "json", "obj", "glb", "cgal", "polylines.txt")]
         for mesh in ("data/quadruped.off", "handles.off"):
             if mesh == "handles.off":
                 subprocess.run([program, "sample", "plate", folder / mesh], check=True)

@@ -2,7 +2,7 @@
 import json
 import unittest
 
-from program import DONE, NO_SKELETON, ProgramTest
+from program import DONE, NO_SKELETON, SOURCE, TETRAHEDRON, ProgramTest
 
 
 def skel(points, edges):
@@ -97,6 +97,34 @@ class Extract(ProgramTest):
     def test_keep_failed_changes_nothing_else(self):
         mesh = self.sample()
         self.assertEqual(self.succeed(mesh, "-"), self.succeed(mesh, "-", "--keep-failed"))
+
+
+class Page(ProgramTest):
+    """What is warned of has its places on the page."""
+
+    def places(self, mesh, *options):
+        result = self.run_program(mesh, "a.html", "--report", "r.json", *options)
+        self.assertEqual(result.returncode, DONE, result.stderr)
+        page = (self.folder / "a.html").read_text(encoding="utf-8")
+        description = json.loads(page.split('id="mspskel-description">')[1].split("</script>")[0])
+        return {place["text"]: place for place in description["places"]}, json.loads((self.folder / "r.json").read_text())["checks"]
+
+    def test_crossing_surface(self):
+        # Two tetrahedra; the second one's apex is in the first one.
+        other = [(0.2, 0.2, 0.2), (2, 0, 0.1), (0, 2, 0.1), (0, 0, 2)]
+        lines = TETRAHEDRON.splitlines()
+        faces = [f"3 {4 + int(a)} {4 + int(b)} {4 + int(c)}" for a, b, c in (line.split()[1:] for line in lines[6:])]
+        self.write("two.off", "\n".join(["OFF", "8 8 0", *lines[2:6], *(" ".join(map(str, p)) for p in other), *lines[6:], *faces]) + "\n")
+        places, checks = self.places("two.off", "--shells", "each")
+        self.assertTrue(checks["self_intersecting"])
+        self.assertIn("the surface crosses itself", places)
+        self.assertNotIn("the surface crosses itself", self.places(self.sample())[0])
+
+    def test_parts_without_arc(self):
+        # Features as large as limbs are called noise.
+        places, checks = self.places(SOURCE / "data" / "quadruped.off", "--smallest", 0.5)
+        self.assertGreater(len(checks["coverage"]["uncovered"]), 0)
+        self.assertEqual(places["a part has no arc"]["count"], len(checks["coverage"]["uncovered"]))
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 // Counts, measures and flaws of surfaces for which they are known.
 #include "mspskel/mesh/mesh_report.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
@@ -120,6 +121,15 @@ TEST_CASE("the count stops at the limit and does not depend on the threads") {
   CHECK(count_self_intersections(s, tree, 5) == 5);
   CHECK(count_self_intersections(s, tree, all + 1, {1, {}}) == all);
   CHECK(count_self_intersections(s, tree, all + 1, {2, {}}) == all);
+  const std::vector<Index> faces = find_self_intersecting_faces(s, tree, {1, {}});
+  CHECK(find_self_intersecting_faces(s, tree, {2, {}}) == faces);
+  CHECK(std::is_sorted(faces.begin(), faces.end()));
+  // All pairs are among them.
+  std::vector<Index> others;
+  for (Index f = 0; f < s.face_count(); ++f)
+    if (!std::binary_search(faces.begin(), faces.end(), f)) others.push_back(f);
+  CHECK(count_self_intersections(s, BoundingVolumeHierarchy(s, faces)) == all);
+  CHECK(count_self_intersections(s, BoundingVolumeHierarchy(s, others)) == 0);
   MeshReportOptions wrong;
   wrong.self_intersection_limit = -1;
   CHECK_THROWS_AS(validate(wrong), UsageError);

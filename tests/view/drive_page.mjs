@@ -142,6 +142,10 @@ try {
   await phone.page.touchscreen.tap(at.x, at.y);
   assert.equal((await state(phone.page)).picked.branch, node.branch, 'a tap picks');
   assert.ok(await phone.page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), 'nothing sticks out');
+  await phone.page.waitForFunction(() => {
+    const top = document.getElementById('title').getBoundingClientRect().bottom, bottom = document.getElementById('card').getBoundingClientRect().top;
+    return Array.from({ length: window.mspskel.nodeCount }, (_, n) => window.mspskel.project(n).y).every(y => y > top && y < bottom);
+  });  // the card hides nothing of the skeleton
   assert.deepEqual(phone.faults, []);
 
   // A mesh finer than what moves well without a graphics card moves coarsely, and rests finely.

@@ -20,7 +20,10 @@ export class View {
     this.controls.addEventListener('change', changed);
     this.untouched = true;
     this.seen = 1;
-    this.controls.addEventListener('start', () => { this.untouched = false; });
+    // A click that moves nothing leaves it untouched.
+    let before = null;
+    this.controls.addEventListener('start', () => { before = this.camera.position.clone(); });
+    this.controls.addEventListener('end', () => { if (before && !before.equals(this.camera.position)) this.untouched = false; });
   }
 
   /** `covered`: pixels at the top and the bottom where something lies over the canvas; the model is shown between. */

@@ -44,7 +44,8 @@ export class Stage {
     this.scene.add(...this.ghost.meshes, ...tubes.flatMap(t => t.meshes), this.disc);
     if (this.skeletonMesh) this.scene.add(this.skeletonMesh.mesh);
     this.picked = { branch: -1, hover: -1, node: -1 };
-    new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
+    const observer = new ResizeObserver(() => this.resize());
+    for (const changing of [canvas.parentElement, ...['title', 'card', 'legend'].map(id => document.getElementById(id))]) observer.observe(changing);
     this.resize();
   }
 
@@ -57,15 +58,14 @@ export class Stage {
     this.draw();
   }
 
-  /** Strips of the canvas that the page's title and legend cover, where they span most of its width. */
+  /** Strips of the canvas that the page's title, card and legend cover, where they span its width. */
   covered(width, height) {
-    const strips = { top: 0, bottom: 0 };
-    for (const id of ['tools', 'legend']) {
+    const strips = { top: 0, bottom: 0 }, origin = this.canvas.getBoundingClientRect().top;
+    for (const id of ['title', 'card', 'legend']) {
       const { left, right, top, bottom } = document.getElementById(id).getBoundingClientRect();
-      const origin = this.canvas.getBoundingClientRect().top;
-      if (right - left < width / 3) continue;
-      if (id === 'tools') strips.top = bottom - origin;
-      else strips.bottom = height - (top - origin);
+      if (right - left < 0.9 * width) continue;
+      if (id === 'title') strips.top = bottom - origin;
+      else strips.bottom = Math.max(strips.bottom, height - (top - origin));
     }
     return strips;
   }

@@ -1,6 +1,9 @@
 // Pairs of triangles that meet where they should not: whether the surface bounds a solid at all.
 #pragma once
 
+#include <limits>
+#include <vector>
+
 #include "mspskel/base/progress.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
 
@@ -14,6 +17,12 @@ namespace mspskel {
 Index count_self_intersections(const SurfaceSnapshot& snapshot, const BoundingVolumeHierarchy& hierarchy,
                                Index limit = std::numeric_limits<Index>::max(),
                                const Execution& execution = {});
+
+// The faces that any such pair has, ascending. O((faces + boxes that overlap until a partner is found) · log
+// faces), parallel. Throws Cancelled likewise.
+std::vector<Index> find_self_intersecting_faces(const SurfaceSnapshot& snapshot,
+                                                const BoundingVolumeHierarchy& hierarchy,
+                                                const Execution& execution = {});
 
 }  // namespace mspskel
 

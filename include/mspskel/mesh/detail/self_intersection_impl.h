@@ -58,6 +58,15 @@ inline bool faces_intersect(const SurfaceSnapshot& s, Index face_f, Index face_g
           segment_meets_triangle(g.a, g.b, f, true) || segment_meets_triangle(g.a, g.c, f, true));
 }
 
+// Calls visit(g) for the faces g > f whose boxes meet that of f, until visit returns false.
+template <class Visit>
+void for_each_later_neighbour(const SurfaceSnapshot& snapshot, const BoundingVolumeHierarchy& hierarchy,
+                              Index f, Visit&& visit) {
+  const Triangle t = triangle_of(snapshot, f);
+  const Vector3 low = t.a.cwiseMin(t.b).cwiseMin(t.c), high = t.a.cwiseMax(t.b).cwiseMax(t.c);
+  hierarchy.for_each_in_box(low, high, [&](Index g) { return g <= f || visit(g); });
+}
+
 }  // namespace detail
 
 MSPSKEL_INLINE Index count_self_intersections(const SurfaceSnapshot& snapshot,
@@ -68,14 +77,34 @@ MSPSKEL_INLINE Index count_self_intersections(const SurfaceSnapshot& snapshot,
       snapshot.face_count(), "self-intersections", execution, [] { return 0; },
       [&](Index f, int&) {
         if (found.load(std::memory_order_relaxed) >= limit) return;
-        const detail::Triangle t = detail::triangle_of(snapshot, f);
-        const Vector3 low = t.a.cwiseMin(t.b).cwiseMin(t.c), high = t.a.cwiseMax(t.b).cwiseMax(t.c);
-        hierarchy.for_each_in_box(low, high, [&](Index g) {
-          if (g > f && detail::faces_intersect(snapshot, f, g)) found.fetch_add(1, std::memory_order_relaxed);
+        detail::for_each_later_neighbour(snapshot, hierarchy, f, [&](Index g) {
+          if (detail::faces_intersect(snapshot, f, g)) found.fetch_add(1, std::memory_order_relaxed);
           return found.load(std::memory_order_relaxed) < limit;
         });
       });
   return std::min(found.load(), limit);
+}
+
+MSPSKEL_INLINE std::vector<Index> find_self_intersecting_faces(const SurfaceSnapshot& snapshot,
+                                                               const BoundingVolumeHierarchy& hierarchy,
+                                                               const Execution& execution) {
+  const auto n = static_cast<std::size_t>(snapshot.face_count());
+  std::vector<std::atomic<char>> meets(n);
+  const auto known = [&](Index f) { return meets[f].load(std::memory_order_relaxed) != 0; };
+  // A pair of which both are known already is not looked at, which changes nothing but the time.
+  parallel_for(
+      snapshot.face_count(), "self-intersections", execution, [] { return 0; },
+      [&](Index f, int&) {
+        detail::for_each_later_neighbour(snapshot, hierarchy, f, [&](Index g) {
+          if ((!known(f) || !known(g)) && detail::faces_intersect(snapshot, f, g))
+            for (const Index face : {f, g}) meets[face].store(1, std::memory_order_relaxed);
+          return true;
+        });
+      });
+  std::vector<Index> faces;
+  for (Index f = 0; f < snapshot.face_count(); ++f)
+    if (known(f)) faces.push_back(f);
+  return faces;
 }
 
 }  // namespace mspskel
