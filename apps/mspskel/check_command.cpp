@@ -55,7 +55,7 @@ class CheckCommand : public Command {
                 "Verifies a skeleton against its mesh: pieces, cycles, containment, centredness, radius.") {
     CommandLine& table = line();
     table.argument("MESH", mesh_path_, "mesh (.off .obj .ply .stl), - for stdin")->required();
-    table.argument("SKELETON", skeleton_path_, "skeleton (.skel .obj .ply .json)")->required();
+    table.argument("SKELETON", skeleton_path_, "skeleton (.skel .obj .ply .json .swc .cgal)")->required();
     table.number("--least-inside", least_inside_, {0, 1}, "share of the length that must be inside");
     table.number("--smallest-handle", cocycle_options_.smallest_handle, {0, 1},
                  "handles round which a shorter loop runs have no cycle; share of the extent, 0: none");

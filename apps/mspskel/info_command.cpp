@@ -129,7 +129,8 @@ class InfoCommand : public Command {
                 "What a mesh or a skeleton is: counts, components, genus, openings, size; branches with "
                 "length and radius.") {
     CommandLine& table = line();
-    table.argument("FILE", path_, "mesh (.off .obj .ply .stl) or skeleton (.skel .obj .ply .json)")
+    table
+        .argument("FILE", path_, "mesh (.off .obj .ply .stl) or skeleton (.skel .obj .ply .json .swc .cgal)")
         ->required();
     table.flag("--json", as_json_, "the same for programs");
     table.flag("-q,--quiet", quiet_, "no warnings");

@@ -15,8 +15,8 @@ class Output:
     def to(self, path: str | os.PathLike) -> str:
         """Writes the file whole or not at all, and returns its path.
 
-        .skel .obj .ply .json .swc .vtp .graphml .cgal .polylines.txt, and .html for a page to look at. The bytes are the
-        command line's. Raises UsageError for another extension, WriteError.
+        .skel .obj .ply .json .swc .vtp .graphml .cgal .polylines.txt, .glb with the surface (rigged: ``rig().to``), and
+        .html for a page to look at. The bytes are the command line's. Raises UsageError for another extension, WriteError.
         """
         path = os.fspath(path)
         _core.write_file(path, self.to_bytes(path))
@@ -26,6 +26,8 @@ class Output:
         """The bytes of a file of that name."""
         if name.lower().endswith((".html", ".htm")):
             return self._run().page()
+        if name.lower().endswith(".glb"):
+            return self._run().glb()
         report = ""
         if name.lower().endswith(".json") and self._extraction is not None:
             report = self._extraction.facts()

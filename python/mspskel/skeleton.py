@@ -153,5 +153,5 @@ class Skeleton(SkeletorNames, OsteoidNames, MeshPartyNames, Measures, Output, Sh
 
 
 def read_skeleton(path: str | os.PathLike) -> Skeleton:
-    """A skeleton from .skel, .obj, .ply or .json. Raises ReadError, and UsageError for another extension."""
+    """A skeleton from .skel, .obj, .ply, .json, .swc, .cgal or .polylines.txt. Raises ReadError, and UsageError for another extension."""
     return Skeleton.of_graph(_core.read_skeleton(os.fspath(path)), method=os.fspath(path))

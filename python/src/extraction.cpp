@@ -5,6 +5,7 @@
 #include <nanobind/stl/unique_ptr.h>
 #include <nanobind/stl/vector.h>
 
+#include <filesystem>
 #include <limits>
 #include <memory>
 
@@ -147,6 +148,15 @@ nb::bytes page_of(Extraction& self) {
   return nb::bytes(page.data(), page.size());
 }
 
+nb::bytes glb_of(const Extraction& self) {
+  std::string bytes;
+  {
+    const nb::gil_scoped_release unlocked;
+    bytes = format_glb(self.scene());
+  }
+  return nb::bytes(bytes.data(), bytes.size());
+}
+
 void bind_soup(nb::module_& module) {
   nb::class_<PolygonSoup>(module, "Soup", "Polygons that share points.")
       .def_prop_ro("points", [](const PolygonSoup& s) { return view(s.points, nb::find(s)); })
@@ -181,6 +191,11 @@ cli::Json Extraction::facts() {
   return cli::facts_of(name, made);
 }
 
+GlbScene Extraction::scene() const {
+  return {std::filesystem::path(name).filename().string(), to_polygon_soup(made.result.surface),
+          made.result.skeleton};
+}
+
 void bind_extraction(nb::module_& module) {
   bind_soup(module);
   module.def("extract", &extract, nb::arg("soup"), nb::arg("name"), nb::arg("options"),
@@ -200,6 +215,7 @@ void bind_extraction(nb::module_& module) {
       .def("report", &report_text)
       .def("certificate", &certificate_of)
       .def("check", &checks_text, nb::arg("skeleton"))
+      .def("glb", &glb_of)
       .def("page", &page_of)
       .def_prop_ro("seconds", [](Self self) { return self.made.result.seconds; })
       .def_prop_ro("vertices", &surface_points)

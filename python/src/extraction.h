@@ -5,6 +5,7 @@
 #include <string>
 
 #include "checked_extraction.h"
+#include "mspskel/io/write_glb.h"
 #include "mspskel/mesh/polygon_soup.h"
 
 namespace mspskel::python {
@@ -21,6 +22,8 @@ struct Extraction {
   const TopologyCertificate& full_certificate();
   // What JSON files and pages hold: what is the same on every run.
   cli::Json facts();
+  // Surface and skeleton as the command line writes them to .glb.
+  GlbScene scene() const;
 
  private:
   std::once_flag certified_;

@@ -49,7 +49,7 @@ std::unique_ptr<RiggedSurface> rig_of(const Extraction& self, Index joints) {
   options.joints = joints;
   auto made = std::make_unique<RiggedSurface>();
   made->rig = make_rig(result.surface, result.skeleton, options);
-  made->scene = {self.name, to_polygon_soup(result.surface), result.skeleton};
+  made->scene = self.scene();
   for (const RigJoint& joint : made->rig.joints) {
     made->positions.push_back(joint.position);
     made->parents.push_back(joint.parent);

@@ -1,7 +1,10 @@
 #include "mspskel/io/read_skeleton.h"
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <tuple>
+#include <unordered_map>
 
 #include "mesh_parsers.h"
 #include "mspskel/base/error.h"
@@ -13,6 +16,8 @@ namespace {
 
 using detail::Syntax;
 using detail::TextScanner;
+
+constexpr const char* kReadable = "skeletons are read from .skel .obj .ply .json .swc .cgal .polylines.txt";
 
 // Sorted, each once; throws by calling fail(message) for an edge that no graph has.
 template <class Fail>
@@ -116,6 +121,93 @@ CurveSkeleton parse_ply_skeleton(std::string_view bytes) {
   return skeleton;
 }
 
+// A comment line's cut edge, if it is one, and to the end of the line.
+void read_swc_comment(TextScanner& scan, std::vector<std::array<std::int64_t, 2>>& links) {
+  for (const char* word : {"#", "cut", "edge"}) {
+    if (scan.word() != word) return scan.skip_line();
+    scan.skip_spaces();
+  }
+  const std::int64_t a = scan.integer_here("a node's number");
+  if (!scan.skip_spaces()) scan.fail_expected("a node's number");
+  links.push_back({a, scan.integer_here("a node's number")});
+  scan.skip_line();
+}
+
+// Nodes have any numbers, in any order; -1 as parent means none. The writer's cut edges close their loops.
+CurveSkeleton parse_swc(std::string_view bytes) {
+  TextScanner scan(bytes, Syntax::kPlain);
+  CurveSkeleton skeleton;
+  std::unordered_map<std::int64_t, std::int64_t> node_of;
+  std::vector<std::array<std::int64_t, 2>> links;
+  while (scan.skip_blank()) {
+    const char* line = scan.position();
+    if (*line == '#') {
+      read_swc_comment(scan, links);
+      continue;
+    }
+    const std::int64_t id = scan.integer_here("a node's number");
+    const auto here = [&](const char* what) {
+      if (!scan.skip_spaces()) scan.fail_expected(what);
+    };
+    if (!node_of.emplace(id, static_cast<std::int64_t>(skeleton.nodes.size())).second)
+      scan.fail(line, "node " + std::to_string(id) + " is there twice");
+    here("a type");
+    scan.integer_here("a type");
+    SkeletonNode node;
+    for (double* number : {&node.position[0], &node.position[1], &node.position[2], &node.radius}) {
+      here("a number");
+      *number = scan.coordinate_here("a number");
+    }
+    here("a parent");
+    const std::int64_t parent = scan.integer_here("a parent");
+    if (parent != -1) links.push_back({id, parent});
+    skeleton.nodes.push_back(node);
+    if (scan.skip_spaces() && *scan.position() != '#') scan.fail_expected("the end of the line");
+  }
+  const auto fail = [](const std::string& message) { throw ReadError(message); };
+  for (const auto& [a, b] : links) {
+    const auto from = node_of.find(a), to = node_of.find(b);
+    for (const auto& [found, id] : {std::pair{from, a}, std::pair{to, b}})
+      if (found == node_of.end()) fail("there is no node " + std::to_string(id));
+    if (a == b) fail("node " + std::to_string(a) + " is its own parent");
+    add_edge(skeleton, from->second, to->second, static_cast<std::int64_t>(skeleton.nodes.size()), fail);
+  }
+  sort_edges(skeleton);
+  return skeleton;
+}
+
+// Lines of `n x1 y1 z1 ...`; points in the same place are one node.
+CurveSkeleton parse_polylines(std::string_view bytes) {
+  TextScanner scan(bytes, Syntax::kPlain);
+  CurveSkeleton skeleton;
+  std::map<std::tuple<double, double, double>, std::int64_t> node_at;
+  while (scan.skip_blank()) {
+    const char* line = scan.position();
+    const std::int64_t count = scan.integer_here("the number of points");
+    if (count < 1 || static_cast<std::uint64_t>(count) > scan.room_for(6))
+      scan.fail(line, "there cannot be " + std::to_string(count) + " points here");
+    std::int64_t last = -1;
+    for (std::int64_t i = 0; i < count; ++i) {
+      SkeletonNode node;
+      for (int k = 0; k < 3; ++k) {
+        if (!scan.skip_spaces()) scan.fail_expected("a coordinate");
+        node.position[k] = scan.coordinate_here("a coordinate");
+      }
+      const auto next = static_cast<std::int64_t>(skeleton.nodes.size());
+      const auto& [found, is_new] =
+          node_at.emplace(std::tuple(node.position[0], node.position[1], node.position[2]), next);
+      if (is_new) skeleton.nodes.push_back(node);
+      if (last >= 0)
+        add_edge(skeleton, last, found->second, next + 1,
+                 [&](const std::string& message) { scan.fail(line, message); });
+      last = found->second;
+    }
+    if (scan.skip_spaces()) scan.fail_expected("the end of the line");
+  }
+  sort_edges(skeleton);
+  return skeleton;
+}
+
 using Json = nlohmann::json;
 
 double number_of(const Json& value, const char* what) {
@@ -193,16 +285,21 @@ CurveSkeleton read_skeleton(std::string_view bytes, SkeletonFormat format) {
       return parse_ply_skeleton(bytes);
     case SkeletonFormat::kJson:
       return parse_json(bytes);
-    default:
-      throw UsageError("skeletons are read from .skel .obj .ply .json only");
+    case SkeletonFormat::kSwc:
+      return parse_swc(bytes);
+    case SkeletonFormat::kPolylines:
+      return parse_polylines(bytes);
+    case SkeletonFormat::kVtp:
+    case SkeletonFormat::kGraphml:
+      break;
   }
+  throw UsageError(kReadable);
 }
 
 CurveSkeleton read_skeleton(const std::string& path) {
   const SkeletonFormat format = skeleton_format_of(path);
-  if (format != SkeletonFormat::kSkel && format != SkeletonFormat::kObj && format != SkeletonFormat::kPly &&
-      format != SkeletonFormat::kJson)
-    throw UsageError("cannot read " + path + ": skeletons are read from .skel .obj .ply .json only");
+  if (format == SkeletonFormat::kVtp || format == SkeletonFormat::kGraphml)
+    throw UsageError("cannot read " + path + ": " + kReadable);
   const std::string bytes = detail::read_bytes(path);
   try {
     return read_skeleton(bytes, format);

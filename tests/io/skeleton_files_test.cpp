@@ -133,6 +133,33 @@ TEST_CASE(".swc: a forest, parents first, each cut edge a comment") {
   CHECK(losses_of_format(skeleton, SkeletonFormat::kVtp).empty());
 }
 
+TEST_CASE(".swc and polylines read back as they were, loops and lone nodes too") {
+  // Their nodes come in an order of their own.
+  const auto by_place = [](const CurveSkeleton& skeleton, bool radius) {
+    std::vector<std::array<double, 4>> nodes;
+    std::vector<std::array<std::array<double, 4>, 2>> edges;
+    for (const SkeletonNode& n : skeleton.nodes)
+      nodes.push_back({n.position[0], n.position[1], n.position[2], radius ? n.radius : 0});
+    for (const auto& [a, b] : skeleton.edges)
+      edges.push_back({std::minmax(nodes[a], nodes[b]).first, std::minmax(nodes[a], nodes[b]).second});
+    std::sort(nodes.begin(), nodes.end());
+    std::sort(edges.begin(), edges.end());
+    return std::pair(nodes, edges);
+  };
+  const CurveSkeleton skeleton = example();
+  for (const SkeletonFormat format : {SkeletonFormat::kSwc, SkeletonFormat::kPolylines}) {
+    const bool radius = format == SkeletonFormat::kSwc;
+    const std::string text = format_skeleton(skeleton, format);
+    CHECK(by_place(read_skeleton(std::string_view(text), format), radius) == by_place(skeleton, radius));
+  }
+  const std::string_view foreign =
+      "#a comment\n# cut edges: none\n7 0 0 0 0 2 3\r\n\n3 1 1.5 0 0 1 -1 # soma\n";
+  const CurveSkeleton read = read_skeleton(foreign, SkeletonFormat::kSwc);
+  CHECK(read.edges == std::vector<std::array<Index, 2>>{{0, 1}});
+  CHECK(read.nodes.at(1).position.x() == 1.5);
+  CHECK(read.nodes.at(0).radius == 2);
+}
+
 TEST_CASE(".ply, .vtp, .graphml and polylines count their elements right") {
   const CurveSkeleton skeleton = example();
   const std::string ply = format_skeleton(skeleton, SkeletonFormat::kPly);
@@ -178,6 +205,16 @@ TEST_CASE("malformed skeletons are refused with their line") {
   check_refused(SkeletonFormat::kSkel, head + "1\n0 0 0 0 1 1 0\n", "line 3: node 0 has an edge to itself");
   check_refused(SkeletonFormat::kSkel, head + "1\n0 0 0 nan 1 0\n", "line 3");
   check_refused(SkeletonFormat::kSkel, head + "1\n0 0 0 0 1 7\n0 0 0 0 0 0 0 0", "");
+  check_refused(SkeletonFormat::kSwc, "1 0 0 0 0 1 -1\n2 0 0 0 0\n", "line 2: expected a number");
+  check_refused(SkeletonFormat::kSwc, "1 0 0 0 0 1 -1\n1 0 0 0 1 1 -1\n", "line 2: node 1 is there twice");
+  check_refused(SkeletonFormat::kSwc, "1 0 0 0 0 1 -1 9\n", "line 1: expected the end of the line");
+  check_refused(SkeletonFormat::kSwc, "1 0 0 0 0 1 2\n", "there is no node 2");
+  check_refused(SkeletonFormat::kSwc, "1 0 0 0 0 1 1\n", "node 1 is its own parent");
+  check_refused(SkeletonFormat::kSwc, "# cut edge 1\n1 0 0 0 0 1 -1\n", "line 1");
+  check_refused(SkeletonFormat::kPolylines, "2 0 0 0 1 1\n", "line 1: expected a coordinate");
+  check_refused(SkeletonFormat::kPolylines, "1 0 0 0 1\n", "line 1: expected the end of the line");
+  check_refused(SkeletonFormat::kPolylines, "9 0 0 0\n", "there cannot be 9 points");
+  check_refused(SkeletonFormat::kPolylines, "2 0 0 0 0 0 0\n", "edge to itself");
   check_refused(SkeletonFormat::kObj, "v 0 0 0\nv 1 0\n", "line 2");
   check_refused(SkeletonFormat::kObj, "v 0 0 0\nl 1 2\n", "line 2: node index 1 is out of range");
   check_refused(SkeletonFormat::kObj, "v 0 0 0\nl 0 1\n", "line 2: node index 0");
