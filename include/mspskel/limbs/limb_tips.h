@@ -37,8 +37,9 @@ struct LimbTip {
 // by another one. It has to be deeper than 1.5 smallest features and 1.5 edges of the surface, be open at one
 // place only (what goes round a handle is open at two), and satisfy is_limb; in a component that has limbs
 // or whose body ends in tips, is_ear will do. None lies in the wall of a shell.
-// A body that is longer than wide has tips where it ends and no limb does. In a component of genus 0 without
-// limbs the ends of its longest way are tips.
+// A body that is longer than wide has tips where it ends and no limb does, and so has one with handles and
+// without limbs along the axis that stands apart. In a component of genus 0 without limbs the ends of its
+// longest way are tips.
 // Cost: a segment query a vertex, O(vertices log vertices).
 std::vector<LimbTip> find_limb_tips(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
                                     const VertexSlices& slices, const LimbOptions& options,

@@ -61,7 +61,6 @@ class LimbCompletion {
         if (outside_[top] < kLeft * reach[i]) continue;
         ++tries;
         if (try_limb(top)) {
-          aim_at_tips(graph_, solid_, {found[i]}, step_);
           tips_.push_back(found[i]);
           ++added;
         }
