@@ -54,7 +54,8 @@ class CheckCommand : public Command {
       : Command("check MESH SKELETON [options]",
                 "Verifies a skeleton against its mesh: pieces, cycles, containment, centredness, radius.") {
     CommandLine& table = line();
-    table.argument("MESH", mesh_path_, "mesh (.off .obj .ply .stl), - for stdin")->required();
+    table.argument("MESH", mesh_path_, "mesh (.off .obj .ply .stl .vtk .vtp .gltf .glb .3mf), - for stdin")
+        ->required();
     table.argument("SKELETON", skeleton_path_, "skeleton (.skel .obj .ply .json .swc .cgal)")->required();
     table.number("--least-inside", least_inside_, {0, 1}, "share of the length that must be inside");
     table.number("--smallest-handle", cocycle_options_.smallest_handle, {0, 1},

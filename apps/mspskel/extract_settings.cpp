@@ -76,7 +76,7 @@ ExtractOptionTable::ExtractOptionTable(const std::vector<std::string>& words, Ex
 }
 
 void ExtractOptionTable::add_options() {
-  line_.argument("IN", settings_.input, "mesh (.off .obj .ply .stl), - for stdin");
+  line_.argument("IN", settings_.input, "mesh (.off .obj .ply .stl .vtk .vtp .gltf .glb .3mf), - for stdin");
   line_.arguments("OUT", settings_.outputs,
                   "skeletons, by extension: .skel .obj .ply .json .swc .vtp .graphml .cgal .polylines.txt; "
                   ".glb is glTF for viewers, with --rig for animation; .rig.txt is RigNet's form of a rig; "

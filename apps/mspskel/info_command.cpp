@@ -130,7 +130,9 @@ class InfoCommand : public Command {
                 "length and radius.") {
     CommandLine& table = line();
     table
-        .argument("FILE", path_, "mesh (.off .obj .ply .stl) or skeleton (.skel .obj .ply .json .swc .cgal)")
+        .argument("FILE", path_,
+                  "mesh (.off .obj .ply .stl .vtk .vtp .gltf .glb .3mf) or skeleton (.skel .obj .ply .json "
+                  ".swc .cgal)")
         ->required();
     table.flag("--json", as_json_, "the same for programs");
     table.flag("-q,--quiet", quiet_, "no warnings");

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -15,6 +16,11 @@ PolygonSoup parse_off(std::string_view bytes);
 PolygonSoup parse_obj(std::string_view bytes);
 PolygonSoup parse_ply(std::string_view bytes);
 PolygonSoup parse_stl(std::string_view bytes);
+PolygonSoup parse_vtk(std::string_view bytes);
+PolygonSoup parse_vtp(std::string_view bytes);
+// `folder`: where the files are that it names; null: they are refused.
+PolygonSoup parse_gltf(std::string_view bytes, const std::string* folder);
+PolygonSoup parse_3mf(std::string_view bytes);
 
 // What a PLY file holds of a skeleton; nothing of it is checked but that the numbers are finite.
 struct PlyGraph {

@@ -1,5 +1,6 @@
 #include "mspskel/io/read_mesh.h"
 
+#include <filesystem>
 #include <optional>
 
 #include "mesh_parsers.h"
@@ -17,6 +18,10 @@ std::optional<MeshFormat> format_of_extension(const std::string& extension) {
   if (extension == "obj") return MeshFormat::kObj;
   if (extension == "ply") return MeshFormat::kPly;
   if (extension == "stl") return MeshFormat::kStl;
+  if (extension == "vtk") return MeshFormat::kVtk;
+  if (extension == "vtp") return MeshFormat::kVtp;
+  if (extension == "gltf" || extension == "glb") return MeshFormat::kGltf;
+  if (extension == "3mf") return MeshFormat::k3mf;
   return std::nullopt;
 }
 
@@ -44,12 +49,17 @@ bool is_binary_stl(std::string_view bytes) {
 std::optional<MeshFormat> format_of_content(std::string_view bytes) {
   if (bytes.substr(0, 3) == "ply" && bytes.find_first_of("\r\n") == 3) return MeshFormat::kPly;
   if (is_binary_stl(bytes)) return MeshFormat::kStl;
+  if (bytes.substr(0, 4) == "glTF") return MeshFormat::kGltf;
+  if (bytes.substr(0, 4) == "PK\3\4") return MeshFormat::k3mf;
   std::string_view text = bytes.substr(bytes.substr(0, 3) == "\xEF\xBB\xBF" ? 3 : 0);
+  if (starts_ignoring_case(text, "# vtk datafile")) return MeshFormat::kVtk;
   for (;;) {  // blank lines and comments before the first word
     text.remove_prefix(std::min(text.size(), text.find_first_not_of(" \t\r\n")));
     if (text.empty() || text[0] != '#') break;
     text.remove_prefix(std::min(text.size(), text.find_first_of("\r\n")));
   }
+  if (text.substr(0, 1) == "<") return MeshFormat::kVtp;
+  if (text.substr(0, 1) == "{") return MeshFormat::kGltf;
   if (is_off_keyword(text.substr(0, 16))) return MeshFormat::kOff;
   if (starts_ignoring_case(text, "solid")) return MeshFormat::kStl;
   if (has_obj_record(text)) return MeshFormat::kObj;
@@ -62,13 +72,12 @@ bool is_utf16(std::string_view bytes) {
 }
 
 const char* name_of(MeshFormat format) {
-  static constexpr const char* kNames[] = {"OFF", "OBJ", "PLY", "STL"};
+  static constexpr const char* kNames[] = {"OFF", "OBJ", "PLY", "STL", "VTK", "VTP", "glTF", "3MF"};
   return kNames[static_cast<int>(format)];
 }
 
-}  // namespace
-
-PolygonSoup read_polygon_soup(std::string_view bytes, MeshFormat format) {
+// `folder`: see parse_gltf.
+PolygonSoup parse(std::string_view bytes, MeshFormat format, const std::string* folder) {
   switch (format) {
     case MeshFormat::kOff:
       return detail::parse_off(bytes);
@@ -76,9 +85,23 @@ PolygonSoup read_polygon_soup(std::string_view bytes, MeshFormat format) {
       return detail::parse_obj(bytes);
     case MeshFormat::kPly:
       return detail::parse_ply(bytes);
-    default:
+    case MeshFormat::kStl:
       return detail::parse_stl(bytes);
+    case MeshFormat::kVtk:
+      return detail::parse_vtk(bytes);
+    case MeshFormat::kVtp:
+      return detail::parse_vtp(bytes);
+    case MeshFormat::kGltf:
+      return detail::parse_gltf(bytes, folder);
+    default:
+      return detail::parse_3mf(bytes);
   }
+}
+
+}  // namespace
+
+PolygonSoup read_polygon_soup(std::string_view bytes, MeshFormat format) {
+  return parse(bytes, format, nullptr);
 }
 
 PolygonSoup read_polygon_soup(const std::string& path) {
@@ -88,10 +111,13 @@ PolygonSoup read_polygon_soup(const std::string& path) {
   const auto by_content = format_of_content(bytes);
   const auto by_extension = path == "-" ? std::nullopt : format_of_extension(detail::extension_of(path));
   if (!by_extension && !by_content)
-    throw ReadError(name + ": neither the extension nor the content is that of OFF, OBJ, PLY or STL");
+    throw ReadError(
+        name +
+        ": neither the extension nor the content is that of OFF, OBJ, PLY, STL, VTK, VTP, glTF or 3MF");
   const MeshFormat format = by_extension ? *by_extension : *by_content;
   try {
-    return read_polygon_soup(bytes, format);
+    const std::string folder = std::filesystem::path(path).parent_path().string();
+    return parse(bytes, format, path == "-" ? nullptr : &folder);
   } catch (const ReadError& error) {
     const bool misnamed = by_content && *by_content != format;
     throw ReadError(name + ": " + error.what() +

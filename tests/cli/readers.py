@@ -50,6 +50,7 @@ def main():
             status = subprocess.run([python, checks, folder], timeout=120).returncode
             if status != 0:
                 return status
+        return subprocess.run([python, source / "tests" / "cli" / "written_by_vtk.py", program, folder], timeout=300).returncode
     return 0
 
 
