@@ -5,6 +5,8 @@
 #include <catch2/catch.hpp>
 
 #include "mspskel/extract_skeleton.h"
+#include "mspskel/limbs/detail/slender_parts.h"
+#include "mspskel/samples/shapes.h"
 #include "mspskel/samples/skin_graph.h"
 #include "support/arc_graphs.h"
 #include "support/meshes.h"
@@ -126,4 +128,24 @@ TEST_CASE("What the balls of another component reach is not covered by them") {
   const std::vector<UncoveredPart> parts = uncovered(surface, skeleton);
   REQUIRE(parts.size() == 1);
   CHECK(parts[0].position.z() == Approx(0.6).epsilon(0.05));
+}
+
+TEST_CASE("Parts beyond a level are measured by their area and by their mouth") {
+  const double radius = 1, length = 6;
+  const Solid solid(to_mesh(make_capsule(radius, length, {0.15, 0.0, 1})));
+  std::vector<double> height;
+  std::vector<Index> all;
+  for (const Vector3& x : solid.surface.position) {
+    height.push_back(x.z());
+    all.push_back(static_cast<Index>(all.size()));
+  }
+  const double scale = solid.surface.frame.scale;
+  const auto parts = detail::slender_parts(solid.surface, height, all, [&](Index) { return 1.5 / scale; });
+  REQUIRE(parts.size() == 1);
+  // No more than half of it: the cap and half of the tube.
+  const detail::PartLevel& level = parts[0].narrowest;
+  CHECK(scale * level.depth == Approx(4).epsilon(0.1));
+  CHECK(scale * level.mouth == Approx(2 * kPi).epsilon(0.02));
+  CHECK(level.depth_over_mouth() == Approx(4).epsilon(0.1));
+  CHECK(level.bulge() == Approx(8).epsilon(0.1));
 }

@@ -8,6 +8,7 @@
 #include "mspskel/refine/detail/arc_leaves.h"
 #include "mspskel/refine/prune_branches.h"
 #include "mspskel/refine/refine_arcs.h"
+#include "mspskel/samples/polygonise.h"
 #include "mspskel/samples/skin_graph.h"
 #include "refine/tripod_arcs.h"
 #include "support/arc_graphs.h"
@@ -15,6 +16,39 @@
 
 using namespace mspskel;
 using namespace mspskel::test;
+
+namespace {
+
+// Fins on a body: slabs in the shape of half discs, in planes through the x axis, at these angles about it.
+ImplicitSolid finned(const std::vector<double>& angles) {
+  constexpr double kHalfLength = 3, kFin = 0.75, kHalfThickness = 0.12, kRoot = 0.95;
+  ImplicitSolid solid;
+  solid.low = Vector3(-4.1, -2, -2);
+  solid.high = -solid.low;
+  solid.value = [=](const Vector3& x) {
+    const Vector3 axis(std::max(0.0, std::abs(x.x()) - kHalfLength), x.y(), x.z());
+    double value = axis.norm() - 1;
+    for (const double angle : angles) {
+      const Vector3 out(0, std::cos(angle), std::sin(angle)), across(0, -std::sin(angle), std::cos(angle));
+      const double along = std::hypot(x.x(), x.dot(out) - kRoot);
+      value = std::min(value, std::hypot(std::max(0.0, along - kFin), x.dot(across)) - kHalfThickness);
+    }
+    return value;
+  };
+  return solid;
+}
+
+// An arc along the x axis.
+ArcGraph straight_axis(const Solid& solid, double half_length) {
+  ArcGraph graph;
+  graph.add_hub(solid.at({-half_length, 0, 0}));
+  graph.add_hub(solid.at({half_length, 0, 0}));
+  line(graph, 0, 1);
+  map_to_nearest(graph, solid.surface.position);
+  return graph;
+}
+
+}  // namespace
 
 TEST_CASE("A limb without an arc gets one, and nothing is added where all have theirs") {
   const Solid solid(to_mesh(skin_graph(tripod(), 1200)));
@@ -122,5 +156,42 @@ TEST_CASE("No place is completed twice") {
     CHECK_FALSE(ends.empty());
     for (std::size_t i = 0; i < ends.size(); ++i)
       for (std::size_t j = 0; j < i; ++j) CHECK((ends[i] - ends[j]).norm() > 1e-3);
+  }
+}
+
+TEST_CASE("Fins on a plain body get an arc each, to their middle") {
+  for (const std::vector<double> angles : {std::vector<double>{0.7}, {0.0, 2.0, 4.0}}) {
+    const Solid solid(to_mesh(polygonise(finned(angles), 5000, 0.12)));
+    ArcGraph graph = straight_axis(solid, 3);
+    std::vector<LimbTip> tips;
+    const auto count = static_cast<Index>(angles.size());
+    CHECK(complete_limbs(graph, solid.surface, solid.hierarchy, tips, {}, 0.01) == count);
+    CHECK(leaf_count(graph) == 2 + count);
+    CHECK(crossings(graph, solid.hierarchy) == 0);
+    CHECK(map_is_partition(graph));
+    const auto at = graph.incidence();
+    for (const double angle : angles) {
+      double nearest = 10;
+      for (Index h = 2; h < graph.hub_count(); ++h)
+        if (at[h].size() == 1)
+          nearest = std::min(nearest, (solid.model(graph.hub_position[h]) -
+                                       1.7 * Vector3(0, std::cos(angle), std::sin(angle)))
+                                          .norm());
+      CHECK(nearest < 0.3);
+    }
+  }
+}
+
+TEST_CASE("Corners and rims are no bumps") {
+  for (const Vector3& half : {Vector3(1, 1, 1), Vector3(2, 1, 1), Vector3(3, 2, 0.2)}) {
+    INFO(half.transpose());
+    ImplicitSolid block;
+    block.low = -1.1 * half;
+    block.high = 1.1 * half;
+    block.value = [&](const Vector3& x) { return (x.cwiseAbs() - half).maxCoeff(); };
+    const Solid solid(to_mesh(polygonise(block, 2500, 0.2)));
+    ArcGraph graph = straight_axis(solid, 0.5 * half.x());
+    std::vector<LimbTip> tips;
+    CHECK(complete_limbs(graph, solid.surface, solid.hierarchy, tips, {}, 0.01) == 0);
   }
 }

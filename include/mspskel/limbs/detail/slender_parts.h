@@ -57,25 +57,27 @@ struct ContourLength {
   }
 };
 
-// The contour below one corner of a triangle, less the one above it.
+// What the contour in a triangle changes by once the corner v lies beyond the level. Where two corners are as
+// far, it stays until both of them are beyond: the part rather has too long a contour than too short a one.
 inline ContourLength contour_change(const SurfaceSnapshot& surface, const std::vector<double>& distance,
                                     std::array<Index, 3> corner, Index v) {
   std::sort(corner.begin(), corner.end(),
             [&](Index a, Index b) { return distance[a] != distance[b] ? distance[a] > distance[b] : a < b; });
   constexpr double kLeastFall = 1e-7;  // nearly level triangles would leave rounding errors behind
   const double high = distance[corner[0]], middle = distance[corner[1]], low = distance[corner[2]];
-  if (!(high - low > kLeastFall)) return {};
+  const bool has_upper = high - middle > kLeastFall, has_lower = middle - low > kLeastFall;
+  ContourLength change;
+  if (!has_upper && !has_lower) return change;
   const Vector3& a = surface.position[corner[0]];
   const Vector3 opposite = a + (high - middle) / (high - low) * (surface.position[corner[2]] - a);
   const double length = (surface.position[corner[1]] - opposite).norm();
-  ContourLength change;
-  if (high - middle > kLeastFall && v != corner[2]) {
+  if (has_upper && (v == corner[0] || v == corner[has_lower ? 1 : 2])) {
     const ContourLength upper{length * high / (high - middle), -length / (high - middle)};
     v == corner[0] ? change += upper : change -= upper;
   }
-  if (middle - low > kLeastFall && v != corner[0]) {
+  if (has_lower && (v == corner[2] || v == corner[has_upper ? 1 : 0])) {
     const ContourLength lower{-length * low / (middle - low), length / (middle - low)};
-    v == corner[1] ? change += lower : change -= lower;
+    v == corner[2] ? change -= lower : change += lower;
   }
   return change;
 }
