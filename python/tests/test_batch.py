@@ -17,6 +17,7 @@ pytest.importorskip("distributed")
 pandas = pytest.importorskip("pandas")
 pytest.importorskip("pyarrow")
 
+import dask  # noqa: E402
 import mspskel.batch  # noqa: E402
 from mspskel.batch import command  # noqa: E402
 from test_formats import write_off  # noqa: E402
@@ -47,9 +48,10 @@ def files_below(folder):
 
 
 def test_every_way_to_fail_is_a_row(meshes, tmp_path):
-    table = mspskel.batch.map(
-        meshes, tmp_path, workers=2, time_limit=3, memory_limit=1 << 33, work="batch_hooks:work", formats=(".skel", ".swc")
-    )
+    with dask.config.set({"distributed.deploy.lost-worker-timeout": "1 ms"}):  # workers never come back as soon as that
+        table = mspskel.batch.map(
+            meshes, tmp_path, workers=2, time_limit=3, memory_limit=1 << 33, work="batch_hooks:work", formats=(".skel", ".swc")
+        )
     rows = {Path(row.mesh).relative_to(meshes).as_posix(): row for row in table.itertuples()}
     assert len(rows) == 11
     done = {"good0.off", "good1.off", "good2.off", "below/good0.off", "prints.off"}

@@ -50,6 +50,6 @@ def check_settings(formats: Sequence[str], options: dict[str, Any]) -> None:
 
     empty = _core.Graph(np.zeros((0, 3)), np.zeros((0, 2), np.int32), np.zeros((0, 4)), np.zeros(0, np.int32))
     for suffix in formats:
-        if suffix not in (".html", ".htm"):
+        if suffix not in (".glb", ".html", ".htm"):
             _core.losses_of_format(empty, "x" + suffix)
     Options(**options)

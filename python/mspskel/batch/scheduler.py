@@ -24,8 +24,13 @@ def connected(scheduler: str | None, workers: int | None) -> Iterator[Client]:
             yield client
         return
     # A worker holds only the mesh that it works on, so one that dies takes no other with it; the second time its mesh is to
-    # blame.
-    careful = {"distributed.scheduler.worker-saturation": 1.0, "distributed.scheduler.allowed-failures": 1}
+    # blame. One that died is started again however long that takes on a busy machine; Dask would give it up after 15 s, and
+    # without any worker the batch would wait for ever.
+    careful = {
+        "distributed.scheduler.worker-saturation": 1.0,
+        "distributed.scheduler.allowed-failures": 1,
+        "distributed.deploy.lost-worker-timeout": "1 day",
+    }
     with dask.config.set(careful), LocalCluster(
         n_workers=workers, threads_per_worker=1, memory_limit=0, dashboard_address=":0"
     ) as cluster, Client(cluster) as client:
