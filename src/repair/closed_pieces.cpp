@@ -219,6 +219,13 @@ std::vector<char> faces_to_keep(const std::vector<Vector3>& points, const FaceSe
       stays[i] = 1;
     }
   }
+  double wall = 0, caps = 0;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    if (!stays[i]) continue;
+    wall += pieces[i].wall;
+    caps += pieces[i].caps;
+  }
+  if (wall > 0) counts.hole_share = caps / (wall + caps);
   std::vector<char> keep(faces.count());
   for (Index f = 0; f < faces.count(); ++f) keep[f] = stays[piece_of[f]];
   return keep;

@@ -100,9 +100,8 @@ class Mending {
     const std::vector<std::vector<Index>> loops =
         detail::boundary_loops(faces_, twin_, point_count(), stitched);
     if (options_.open == OpenEnds::kFail && !loops.empty())
-      throw MeshError("the surface has " + std::to_string(loops.size()) +
-                      (loops.size() == 1 ? " hole" : " holes") +
-                      "; close what is open, or let it be closed with --open ends or --open cap");
+      refuse("the surface has " + std::to_string(loops.size()) + (loops.size() == 1 ? " hole" : " holes") +
+             "; close what is open, or let it be closed with --open ends or --open cap");
     std::vector<char> visited(faces_.count(), 0);
     for (const std::vector<Index>& loop : loops) close(loop, visited);
     counts().holes = static_cast<Index>(loops.size());
@@ -159,7 +158,7 @@ class Mending {
   void finish() {
     const std::vector<char> keep =
         detail::faces_to_keep(points_, faces_, twin_, wall_count_, options_, counts());
-    if (std::find(keep.begin(), keep.end(), 1) == keep.end()) refuse();
+    if (std::find(keep.begin(), keep.end(), 1) == keep.end()) refuse_without_volume();
     std::vector<Index> vertex_of_added;
     detail::make_vertices(points_, faces_, twin_, keep, soup_, point_of_, mended_, vertex_of_added);
     place_openings(vertex_of_added);
@@ -191,13 +190,13 @@ class Mending {
     mended_.openings = openings;
   }
 
-  [[noreturn]] void refuse() const {
+  [[noreturn]] void refuse(const std::string& reason) const { throw MendError(reason, mended_.counts); }
+  [[noreturn]] void refuse_without_volume() const {
     if (wall_count_ == 0)
-      throw MeshError(
-          "the mesh has no face with an area: points and lines have no skeleton; triangulate them");
-    throw MeshError("the mesh encloses no volume: its " + std::to_string(wall_count_) +
-                    (wall_count_ == 1 ? " triangle is" : " triangles are") +
-                    " flat or an open sheet; give it a thickness, or close it to a solid");
+      refuse("the mesh has no face with an area: points and lines have no skeleton; triangulate them");
+    refuse("the mesh encloses no volume: its " + std::to_string(wall_count_) +
+           (wall_count_ == 1 ? " triangle is" : " triangles are") +
+           " flat or an open sheet; give it a thickness, or close it to a solid");
   }
 
   const PolygonSoup& soup_;

@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <unordered_map>
 
 #include "mspskel/mesh/detail/triangle_queries.h"
+#include "tetrahedron_cutter.h"
 
 namespace mspskel::detail {
 namespace {
@@ -61,9 +61,18 @@ class UnionBoundary {
   PolygonSoup run(const Execution& execution) {
     find_cells();
     sample(execution);
-    for (const std::int64_t key : cells_) cut_cube(grid_.cell(key));
-    return std::move(soup_);
+    TetrahedronCutter cutter(*this, nodes_.size());
+    for (const std::int64_t key : cells_) {
+      std::array<Index, 8> corner{};
+      for (int k = 0; k < 8; ++k) corner[k] = node(corner_of(grid_.cell(key), k));
+      cutter.cut_cube(corner);
+    }
+    return cutter.take();
   }
+
+  // What TetrahedronCutter asks for.
+  double value(Index node) const { return value_[node]; }
+  Vector3 place(Index node) const { return grid_.place(grid_.cell(nodes_[node])); }
 
  private:
   // Not a whole number of cells from the box, so that plane walls do not fall on nodes.
@@ -156,64 +165,6 @@ class UnionBoundary {
     return static_cast<Index>(std::lower_bound(nodes_.begin(), nodes_.end(), grid_.key(c)) - nodes_.begin());
   }
 
-  // Six tetrahedra, one for each way along the axes from the first corner to the last.
-  void cut_cube(const Cell& c) {
-    std::array<Index, 8> corner;
-    int inside = 0;
-    for (int k = 0; k < 8; ++k) {
-      corner[k] = node(corner_of(c, k));
-      inside += value_[corner[k]] < 0;
-    }
-    if (inside == 0 || inside == 8) return;
-    static constexpr int kWays[6][2] = {{1, 3}, {1, 5}, {2, 3}, {2, 6}, {4, 5}, {4, 6}};
-    for (const auto& [first, second] : kWays)
-      cut_tetrahedron({corner[0], corner[first], corner[second], corner[7]});
-  }
-
-  void cut_tetrahedron(const std::array<Index, 4>& nodes) {
-    std::array<Index, 4> in{}, out{};
-    int ins = 0, outs = 0;
-    for (const Index n : nodes) (value_[n] < 0 ? in[ins++] : out[outs++]) = n;
-    if (ins == 1) {
-      add(in, ins, out, outs, {{{in[0], out[0]}, {in[0], out[1]}, {in[0], out[2]}}});
-    } else if (ins == 3) {
-      add(in, ins, out, outs, {{{in[0], out[0]}, {in[1], out[0]}, {in[2], out[0]}}});
-    } else if (ins == 2) {
-      add(in, ins, out, outs, {{{in[0], out[0]}, {in[0], out[1]}, {in[1], out[1]}}});
-      add(in, ins, out, outs, {{{in[0], out[0]}, {in[1], out[1]}, {in[1], out[0]}}});
-    }
-  }
-
-  using Edge = std::array<Index, 2>;  // from a node inside to one outside
-
-  // Seen from outside counter-clockwise, which the middles of the edges decide.
-  void add(const std::array<Index, 4>& in, int ins, const std::array<Index, 4>& out, int outs,
-           const std::array<Edge, 3>& edges) {
-    const auto at = [&](Index n) { return grid_.place(grid_.cell(nodes_[n])); };
-    Vector3 outward = Vector3::Zero();
-    for (int i = 0; i < outs; ++i) outward += at(out[i]) / outs;
-    for (int i = 0; i < ins; ++i) outward -= at(in[i]) / ins;
-    const auto middle = [&](const Edge& e) { return Vector3((at(e[0]) + at(e[1])) / 2); };
-    const Vector3 a = middle(edges[0]), b = middle(edges[1]), c = middle(edges[2]);
-    const Index u = vertex(edges[0]), v = vertex(edges[1]), w = vertex(edges[2]);
-    if ((b - a).cross(c - a).dot(outward) > 0)
-      soup_.add_triangle(u, v, w);
-    else
-      soup_.add_triangle(u, w, v);
-  }
-
-  Index vertex(const Edge& e) {
-    constexpr double kClear = 0.05;  // of the edge, from its ends: triangles keep an area
-    const auto count = static_cast<std::uint64_t>(nodes_.size());
-    const auto [entry, added] = vertices_.try_emplace(
-        static_cast<std::uint64_t>(e[0]) * count + static_cast<std::uint64_t>(e[1]), soup_.points.size());
-    if (!added) return static_cast<Index>(entry->second);
-    const Vector3 from = grid_.place(grid_.cell(nodes_[e[0]])), to = grid_.place(grid_.cell(nodes_[e[1]]));
-    const double share = value_[e[0]] / (value_[e[0]] - value_[e[1]]);
-    soup_.points.push_back(from + std::clamp(share, kClear, 1 - kClear) * (to - from));
-    return static_cast<Index>(entry->second);
-  }
-
   const SurfaceSnapshot& surface_;
   const std::vector<Shell>& shells_;
   const std::vector<Index>& members_;
@@ -222,8 +173,6 @@ class UnionBoundary {
   std::vector<std::int64_t> cells_, nodes_;
   std::size_t kept_ = 0;
   std::vector<double> value_;  // per node
-  std::unordered_map<std::uint64_t, std::size_t> vertices_;
-  PolygonSoup soup_;
 };
 
 }  // namespace

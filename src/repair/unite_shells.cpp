@@ -8,11 +8,13 @@
 #include "mspskel/base/error.h"
 #include "mspskel/mesh/build_mesh.h"
 #include "shell_grid.h"
+#include "whole_pieces.h"
 
 namespace mspskel {
 namespace {
 
 using detail::Shell;
+using detail::WholePieces;
 
 // The median way through the solid from some of the shell's vertices.
 double thickness(const SurfaceSnapshot& surface, const Shell& shell) {
@@ -55,67 +57,18 @@ double cell_for(const SurfaceSnapshot& surface, const std::vector<Shell>& shells
                     std::max(kCoarsest * extent, affordable));
 }
 
-struct Pieces {
-  PolygonSoup soup;
-  Index genus = 0, solids = 0;
-};
-
-// Without crumbs, and with the handles of what is left counted.
-Pieces without_crumbs(const PolygonSoup& soup) {
-  constexpr double kCrumb = 0.025;
-  const auto points = static_cast<Index>(soup.points.size());
-  detail::DisjointSets sets(points);
-  for (std::size_t i = 0; i < soup.corners.size(); i += 3)
-    for (const std::size_t k : {i + 1, i + 2}) sets.unite(soup.corners[i], soup.corners[k]);
-  std::vector<Vector3> low(soup.points), high(soup.points);
-  std::vector<Index> euler(soup.points.size(), 0);  // twice
-  std::vector<double> volume(soup.points.size(), 0.0);
-  for (Index v = 0; v < points; ++v) {
-    const Index piece = sets.root(v);
-    low[piece] = low[piece].cwiseMin(soup.points[v]);
-    high[piece] = high[piece].cwiseMax(soup.points[v]);
-    euler[piece] += 2;
-  }
-  double largest = 0;
-  for (Index v = 0; v < points; ++v) largest = std::max(largest, (high[v] - low[v]).norm());
-  Pieces kept;
-  std::vector<Index> vertex(soup.points.size(), kNone);
-  for (std::size_t i = 0; i < soup.corners.size(); i += 3) {
-    const Index piece = sets.root(soup.corners[i]);
-    --euler[piece];
-    const auto at = [&](std::size_t k) { return Vector3(soup.points[soup.corners[k]] - soup.points[piece]); };
-    volume[piece] += at(i).dot(at(i + 1).cross(at(i + 2)));
-    if ((high[piece] - low[piece]).norm() < kCrumb * largest) continue;
-    for (std::size_t k = i; k < i + 3; ++k) {
-      Index& v = vertex[soup.corners[k]];
-      if (v == kNone) {
-        v = static_cast<Index>(kept.soup.points.size());
-        kept.soup.points.push_back(soup.points[soup.corners[k]]);
-      }
-      kept.soup.corners.push_back(v);
-    }
-    kept.soup.begin.push_back(static_cast<Index>(kept.soup.corners.size()));
-  }
-  for (Index v = 0; v < points; ++v) {
-    if (sets.root(v) != v || vertex[v] == kNone) continue;
-    kept.genus += (4 - euler[v]) / 4;
-    kept.solids += volume[v] > 0;
-  }
-  return kept;
-}
-
 // Nothing if the union has more handles than its shells have and n of them can make by touching: an assembly
 // of parts in contact, or walls too thin for the cells.
-std::optional<Pieces> unite(const SurfaceSnapshot& surface, const std::vector<Shell>& shells,
-                            const std::vector<Index>& members, double cell, const Execution& execution) {
+std::optional<WholePieces> unite(const SurfaceSnapshot& surface, const std::vector<Shell>& shells,
+                                 const std::vector<Index>& members, double cell, const Execution& execution) {
   const std::vector<Index> euler = twice_euler_characteristics(surface);
   Index own = 0;
   for (const Index m : members) own += (4 - euler[m]) / 4;
-  std::optional<Pieces> best;
+  std::optional<WholePieces> best;
   for (const double margin : {0.0, 0.5 * std::sqrt(3.0) * cell}) {
     if (best && best->genus <= own) break;
-    Pieces pieces =
-        without_crumbs(detail::boundary_of_union(surface, shells, members, cell, margin, execution));
+    WholePieces pieces =
+        detail::without_crumbs(detail::boundary_of_union(surface, shells, members, cell, margin, execution));
     if (pieces.solids > 0 && (!best || pieces.genus < best->genus)) best = std::move(pieces);
   }
   if (best && best->genus > own + static_cast<Index>(members.size())) best.reset();
@@ -141,7 +94,7 @@ class Uniting {
                                 united_.vertex_of[surface_.origin[3 * f + 2]]);
   }
 
-  void replace(const std::vector<Index>& members, const Pieces& pieces, double cell) {
+  void replace(const std::vector<Index>& members, const WholePieces& pieces, double cell) {
     const auto first = static_cast<Index>(united_.soup.points.size());
     for (const Vector3& p : pieces.soup.points) united_.soup.points.push_back(surface_.frame.to_model(p));
     for (std::size_t i = 0; i < pieces.soup.corners.size(); i += 3)
@@ -208,7 +161,7 @@ std::optional<UnitedShells> unite_crossing_shells(const SurfaceSnapshot& surface
     if (!grouped[c]) uniting.keep(c);
   for (const std::vector<Index>& group : groups) {
     const double cell = cell_for(surface, shells, group, options);
-    if (const std::optional<Pieces> pieces = unite(surface, shells, group, cell, execution))
+    if (const std::optional<WholePieces> pieces = unite(surface, shells, group, cell, execution))
       uniting.replace(group, *pieces, cell);
     else
       uniting.leave_apart(group);

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cstdint>
 #include <cstring>
+#include <random>
 #include <string>
 
 #include "mspskel/base/error.h"
@@ -34,6 +35,29 @@ inline void check_refused(MeshFormat format, const std::string& text, const std:
   CHECK_THROWS_AS(read_polygon_soup(std::string_view(text), format), ReadError);
   CHECK_THROWS_WITH(read_polygon_soup(std::string_view(text), format),
                     Catch::Contains(where) && Catch::Contains(what));
+}
+
+// Bytes of the file are changed, repeated or dropped at random: it is read with indices in range, or refused.
+inline void check_edits(MeshFormat format, const std::string& file, int edits = 500) {
+  std::mt19937 random(1);
+  for (int i = 0; i < edits; ++i) {
+    std::string text = file;
+    for (std::uint32_t k = 0; k <= random() % 4; ++k) {
+      const std::size_t at = random() % text.size();
+      if (random() % 4 == 0)
+        text.erase(at, random() % 8);
+      else if (random() % 4 == 0)
+        text.insert(at, text, random() % text.size(), random() % 16);
+      else
+        text[at] = static_cast<char>(random() % 3 == 0 ? random() % 256 : text[random() % text.size()]);
+    }
+    try {
+      const PolygonSoup soup = read_polygon_soup(std::string_view(text), format);
+      for (const Index v : soup.corners) REQUIRE((v >= 0 && v < static_cast<Index>(soup.points.size())));
+      REQUIRE(soup.begin.back() == static_cast<Index>(soup.corners.size()));
+    } catch (const ReadError&) {
+    }
+  }
 }
 
 // Appends numbers in a chosen byte order.

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "mspskel/base/error.h"
 #include "mspskel/mesh/polygon_soup.h"
 #include "mspskel/repair/opening.h"
 
@@ -47,6 +48,7 @@ struct MendCounts {
   Index split_edges = 0;       // vertices added in the middle of edges where the surface touched itself
   Index holes = 0;             // loops closed
   Index hole_faces = 0;        // triangles added
+  double hole_share = 0.0;     // of the area of what stays, that they make up
   Index joined_pieces = 0;     // pieces that became parts of those they touch
   Index flat_components = 0;   // pieces without volume
   Index small_components = 0;  // crumbs
@@ -61,6 +63,13 @@ struct MendedSoup {
   MendCounts counts;
 };
 
+// The mesh is refused; the counts are of what was done up to there.
+struct MendError : MeshError {
+  MendError(const std::string& message, const MendCounts& counts_so_far)
+      : MeshError(message), counts(counts_so_far) {}
+  MendCounts counts;
+};
+
 // Welds equal points, drops what bounds nothing, turns faces to agree, and pairs the faces round each edge of
 // more than two by angle, so that each pair bounds material; what is open after that is stitched or closed.
 //   Where solids touch in an edge or a point they are drawn apart by a thousandth of the shortest edge there;
@@ -71,7 +80,7 @@ struct MendedSoup {
 //   A loop is a tube's if its centre sees all of it and the wall within a radius of it runs along its normal
 //   rather than across.
 // A closed, manifold surface comes through with its vertices and triangles, apart from crumbs.
-// Throws MeshError if nothing that encloses a volume is left, saying why and what would help, or if there is
+// Throws MendError if nothing that encloses a volume is left, saying why and what would help, or if there is
 // a loop and open is kFail. Cost: O(n log n); a loop of n edges takes n³ up to 128 edges, n log n beyond.
 MendedSoup mend_soup(const PolygonSoup& soup, const MendOptions& options = {});
 

@@ -1,0 +1,105 @@
+// A surface round faces that do not meet: closed, near them, of the scale that is asked for or told.
+#include "mspskel/repair/wrap_soup.h"
+
+#include <catch2/catch.hpp>
+
+#include "mspskel/base/error.h"
+#include "mspskel/mesh/build_mesh.h"
+#include "mspskel/samples/samples.h"
+
+using namespace mspskel;
+
+namespace {
+
+// A closed sample whose faces have corners of their own, drawn in by a share of the way to the middle.
+PolygonSoup loose_faces(const std::string& name, int resolution, double drawn_in) {
+  SampleOptions options;
+  options.resolution = resolution;
+  const PolygonSoup closed = make_sample(name, options);
+  PolygonSoup loose;
+  for (std::size_t i = 0; i < closed.corners.size(); i += 3) {
+    Vector3 middle = Vector3::Zero();
+    for (std::size_t k = i; k < i + 3; ++k) middle += closed.points[closed.corners[k]] / 3;
+    for (std::size_t k = i; k < i + 3; ++k)
+      loose.points.push_back((1 - drawn_in) * closed.points[closed.corners[k]] + drawn_in * middle);
+    const auto first = static_cast<Index>(i);
+    loose.add_triangle(first, first + 1, first + 2);
+  }
+  return loose;
+}
+
+PolygonSoup moved(const PolygonSoup& soup, double scale, const Vector3& way) {
+  PolygonSoup result = soup;
+  for (Vector3& p : result.points) p = scale * p + way;
+  return result;
+}
+
+PolygonSoup joined(const PolygonSoup& a, const PolygonSoup& b) {
+  PolygonSoup both = a;
+  const auto first = static_cast<Index>(a.points.size());
+  both.points.insert(both.points.end(), b.points.begin(), b.points.end());
+  for (std::size_t i = 0; i < b.corners.size(); i += 3)
+    both.add_triangle(first + b.corners[i], first + b.corners[i + 1], first + b.corners[i + 2]);
+  return both;
+}
+
+struct Shape {
+  Index components = 0, genus = 0;
+};
+
+Shape shape_of(const PolygonSoup& soup) {
+  const BuiltMesh built = build_mesh_with_report(soup);  // throws unless it is closed and manifold
+  const auto euler = static_cast<Index>(built.mesh.n_vertices()) - static_cast<Index>(built.mesh.n_edges()) +
+                     static_cast<Index>(built.mesh.n_faces());
+  return {built.component_count, built.component_count - euler / 2};
+}
+
+}  // namespace
+
+TEST_CASE("Faces that do not meet are wrapped to the solid that they stand round") {
+  for (const char* name : {"capsule", "torus"}) {
+    const PolygonSoup loose = loose_faces(name, 600, 0.2);
+    const WrappedSoup wrapped = wrap_soup(loose);
+    const Shape shape = shape_of(wrapped.soup);
+    CHECK(shape.components == 1);
+    CHECK(shape.genus == (std::string(name) == "torus"));
+    CHECK(wrapped.solids == 1);
+    REQUIRE(wrapped.vertex_of_point.size() == loose.points.size());
+    for (std::size_t p = 0; p < loose.points.size(); ++p) {
+      REQUIRE(wrapped.vertex_of_point[p] != kNone);
+      CHECK((wrapped.soup.points[wrapped.vertex_of_point[p]] - loose.points[p]).norm() < 2.5 * wrapped.cell);
+    }
+  }
+}
+
+TEST_CASE("Solids farther apart than the gap stay apart, nearer ones become one") {
+  const PolygonSoup ball = loose_faces("sphere", 400, 0.0);
+  double width = 0;
+  for (const Vector3& p : ball.points) width = std::max(width, 2 * std::abs(p.x()));
+  const PolygonSoup two = joined(ball, moved(ball, 1, {1.1 * width, 0, 0}));
+  WrapOptions options;
+  options.gap = 0.02;  // of an extent of about 2.5 widths
+  CHECK(shape_of(wrap_soup(two, options).soup).components == 2);
+  options.gap = 0.1;
+  CHECK(shape_of(wrap_soup(two, options).soup).components == 1);
+}
+
+TEST_CASE("What wraps a mesh is moved and scaled along with it") {
+  const PolygonSoup loose = loose_faces("capsule", 300, 0.1);
+  const WrappedSoup one = wrap_soup(loose), other = wrap_soup(moved(loose, 1024, {0, 0, 0}));
+  CHECK(other.cell == Approx(1024 * one.cell));
+  REQUIRE(other.soup.corners == one.soup.corners);
+  for (std::size_t v = 0; v < one.soup.points.size(); ++v)
+    CHECK((other.soup.points[v] - 1024 * one.soup.points[v]).norm() < 1e-6 * other.cell);
+}
+
+TEST_CASE("What cannot be wrapped is refused") {
+  PolygonSoup nothing;
+  nothing.points.assign(3, Vector3::Zero());
+  CHECK_THROWS_AS(wrap_soup(nothing), MeshError);
+  nothing.add_triangle(0, 1, 2);
+  CHECK_THROWS_AS(wrap_soup(nothing), MeshError);
+  WrapOptions options;
+  options.gap = 0.3;
+  CHECK_THROWS_AS(wrap_soup(nothing, options), UsageError);
+}
