@@ -14,6 +14,7 @@
 #include "commands.h"
 #include "distinct_files.h"
 #include "extract_settings.h"
+#include "memory_limit.h"
 #include "mspskel/base/error.h"
 #include "mspskel/base/near_name.h"
 #include "mspskel/base/progress.h"
@@ -209,6 +210,40 @@ void write_bent(const ExtractSettings& settings, const Extraction& extraction) {
   write_mesh(settings.bent, surface);
 }
 
+// To its file, and a word of it about every part to those who want many.
+void write_report(const ExtractSettings& settings, const Json& report, Terminal& terminal) {
+  terminal.clear_progress();
+  for (const char* part : {"input", "counts", "seconds", "skeleton", "checks"})
+    if (report.contains(part)) terminal.note(std::string(part) + " " + report_text(report[part], -1));
+  if (!settings.report.empty()) write_file_atomically(settings.report, report_text(report));
+}
+
+// The report says why there is no result, too; an end that was asked for leaves nothing behind.
+Extraction extract_or_report(const ExtractSettings& settings, const Cancellation& cancellation,
+                             const Stopwatch& total, ProgramSeconds& seconds, Terminal& terminal) {
+  try {
+    return extract_and_check(settings, cancellation, seconds, terminal);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kCancelled && error.kind() != ErrorKind::kWrite)
+      write_report(settings, refusal_report(settings.input, settings.values, error, total.seconds()),
+                   terminal);
+    throw;
+  }
+}
+
+// Of a skeleton that fails its checks and that nobody wants to keep.
+[[noreturn]] void refuse(const ExtractSettings& settings, const Extraction& extraction,
+                         const Stopwatch& total, ProgramSeconds& seconds, Terminal& terminal) {
+  const NoSkeletonError error(extraction.made.failure + " (--keep-failed writes it all the same)");
+  seconds.total = total.seconds();
+  if (extraction.reported) {
+    Json report = with_costs(extraction.facts, settings.values, extraction.made.result, seconds);
+    report["error"] = error_json(error);
+    write_report(settings, report, terminal);
+  }
+  throw error;
+}
+
 void write_files(const ExtractSettings& settings, const Extraction& extraction, const Stopwatch& total,
                  ProgramSeconds& seconds, Terminal& terminal) {
   const Stopwatch writing;
@@ -235,11 +270,9 @@ void write_files(const ExtractSettings& settings, const Extraction& extraction, 
   seconds.write = writing.seconds();
   seconds.total = total.seconds();
   if (!extraction.reported) return;
-  const Json report = with_costs(extraction.facts, settings.values, made.result, seconds);
-  terminal.clear_progress();
-  for (const char* part : {"input", "counts", "seconds", "skeleton", "checks"})
-    terminal.note(std::string(part) + " " + report_text(report[part], -1));
-  if (!settings.report.empty()) write_file_atomically(settings.report, report_text(report));
+  Json report = with_costs(extraction.facts, settings.values, made.result, seconds);
+  if (!made.failure.empty()) report["error"] = error_json(NoSkeletonError(made.failure));
+  write_report(settings, report, terminal);
 }
 
 void extract(const ExtractSettings& given, const Cancellation& cancellation, Terminal& terminal) {
@@ -252,12 +285,11 @@ void extract(const ExtractSettings& given, const Cancellation& cancellation, Ter
   ProgramSeconds seconds;
   check_outputs(settings);
   keep_threads_apart(thread_count(settings.run.extract.execution));
-  const Extraction extraction = extract_and_check(settings, cancellation, seconds, terminal);
+  const Extraction extraction = extract_or_report(settings, cancellation, total, seconds, terminal);
   cancellation.throw_if_requested();
   const std::string& failure = extraction.made.failure;
   show_warnings(extraction.made.result, terminal);
-  if (!failure.empty() && !settings.keep_failed)
-    throw NoSkeletonError(failure + " (--keep-failed writes it all the same)");
+  if (!failure.empty() && !settings.keep_failed) refuse(settings, extraction, total, seconds, terminal);
   write_files(settings, extraction, total, seconds, terminal);
   if (!failure.empty()) throw NoSkeletonError(failure);
 }
@@ -273,6 +305,7 @@ class ExtractCommand : public Command {
       return 0;
     }
     options_.resolve();
+    limit_memory(settings_.max_memory);
     const Cancellation cancellation(settings_.run.time_limit);
     Terminal terminal(settings_.verbosity());
     try {

@@ -19,7 +19,7 @@ constexpr const char* kExamples =
 constexpr const char* kExitStatus =
     R"(  0 done, 1 usage, 2 cannot read, 3 the mesh is not usable, 4 cannot write,
   5 no skeleton, or one whose pieces or cycles are not the mesh's (see --keep-failed),
-  6 time limit or interrupted.
+  6 time or memory limit, or interrupted.
 )";
 
 std::string command_list() {
@@ -82,6 +82,8 @@ void ExtractOptionTable::add_options() {
                   ".glb is glTF for viewers, with --rig for animation; .rig.txt is RigNet's form of a rig; "
                   ".html is a page to look at; - is .skel on stdout; IN with .skel by default");
   run_.add_general(line_);
+  line_.number("--max-memory", settings_.max_memory, {0, 1e9},
+               "megabytes that the program may take; 0: no limit");
   line_.text("--report", settings_.report, "FILE", "what was done and found, as JSON; - for stdout");
   line_.text("--stages", settings_.stages, "DIR",
              "what lies between the stages: msp.csv and coloured meshes");

@@ -28,7 +28,8 @@ struct ExtractSettings {
   bool keep_failed = false;
   bool quiet = false;
   bool verbose = false;
-  bool version = false;  // nothing but that is asked for
+  double max_memory = 0;  // megabytes; 0: no limit
+  bool version = false;   // nothing but that is asked for
   RunOptions run;
   Json values;  // of all options, for the report
 

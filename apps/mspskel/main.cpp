@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "commands.h"
+#include "memory_limit.h"
 #include "mspskel/base/error.h"
 #include "mspskel/base/near_name.h"
 #include "terminal.h"
@@ -68,7 +69,8 @@ int run_and_report(const std::vector<std::string>& words) {
     Terminal().error(error.what());
     return static_cast<int>(error.kind());
   } catch (const std::bad_alloc&) {
-    Terminal().error("not enough memory");
+    Terminal().error(out_of_memory_text());
+    if (memory_is_limited()) return static_cast<int>(ErrorKind::kCancelled);
   } catch (const std::exception& error) {
     Terminal().error(error.what());
   }

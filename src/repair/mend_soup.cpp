@@ -196,7 +196,7 @@ class Mending {
       refuse("the mesh has no face with an area: points and lines have no skeleton; triangulate them");
     refuse("the mesh encloses no volume: its " + std::to_string(wall_count_) +
            (wall_count_ == 1 ? " triangle is" : " triangles are") +
-           " flat or an open sheet; give it a thickness, or close it to a solid");
+           " flat or an open sheet; give it a thickness, close it to a solid, or wrap it with --wrap 0.02");
   }
 
   const PolygonSoup& soup_;

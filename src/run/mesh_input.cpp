@@ -22,6 +22,32 @@ MeshInput mend(const PolygonSoup& soup, const RepairSettings& settings) {
   return input;
 }
 
+std::string length_text(double length) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", length);
+  return text;
+}
+
+MeshInput wrap(const PolygonSoup& soup, const RepairSettings& settings, const Execution& execution) {
+  MeshInput input;
+  input.wrapped = wrap_soup(soup, settings.wrapping, execution);
+  input.built = build_mesh_with_report(input.wrapped->soup);
+  input.wrapped->soup = {};
+  input.vertex_of_point = input.wrapped->vertex_of_point;
+  input.built.warnings.insert(input.built.warnings.begin(),
+                              "wrapped to " + counted(input.wrapped->solids, "solid") + ": gaps below " +
+                                  length_text(input.wrapped->gap) + " are closed, on a grid with cells of " +
+                                  length_text(input.wrapped->cell) +
+                                  " (--wrap never mends what can be mended instead)");
+  return input;
+}
+
+// Where a good part of the surface is made up by what closes it, mending is a guess.
+bool is_guesswork(const MendCounts& counts) {
+  constexpr double kMostMadeUp = 0.25;
+  return counts.hole_share > kMostMadeUp;
+}
+
 void unite(MeshInput& input, const Execution& execution) {
   if (input.built.component_count < 2) return;
   const SurfaceSnapshot surface = make_snapshot(input.built.mesh);
@@ -47,12 +73,20 @@ void unite(MeshInput& input, const Execution& execution) {
   }
   input.built = build_mesh_with_report(united.soup);
   united.soup = {};
-  char cell[32];
-  std::snprintf(cell, sizeof cell, "%.3g", united.cell);
   warnings.push_back(counted(united.shells, "shell") + " that cross each other are united to " +
-                     counted(united.solids, "solid") + ", sampled at cells of " + cell +
+                     counted(united.solids, "solid") + ", sampled at cells of " + length_text(united.cell) +
                      " (--shells each keeps them apart)");
   input.built.warnings.insert(input.built.warnings.begin(), warnings.begin(), warnings.end());
+}
+
+double share_of(const std::string& option, const std::string& text, const std::string& words, Range range) {
+  double share = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, share);
+  if (error != std::errc() || stop != end || !(share >= range.low && share <= range.high))
+    throw UsageError(option + ": expected " + words + " or a share from " + range_text(range) + ", not '" +
+                     text + "'");
+  return share;
 }
 
 Json opening_json(const Opening& opening) {
@@ -63,15 +97,12 @@ Json opening_json(const Opening& opening) {
 }  // namespace
 
 void RepairSettings::resolve() {
-  double& share = options.smallest_component;
-  if (components == "all" || components == "largest") {
-    share = components == "all" ? 0 : 1;
-    return;
-  }
-  const char* const end = components.data() + components.size();
-  const auto [stop, error] = std::from_chars(components.data(), end, share);
-  if (error != std::errc() || stop != end || !(share >= 0 && share <= 1))
-    throw UsageError("--components: expected all, largest or a share from 0 to 1, not '" + components + "'");
+  if (components == "all" || components == "largest")
+    options.smallest_component = components == "all" ? 0 : 1;
+  else
+    options.smallest_component = share_of("--components", components, "all, largest", {0, 1});
+  wrap_mode = wrap == "auto" ? WrapMode::kAuto : wrap == "never" ? WrapMode::kNever : WrapMode::kAlways;
+  if (wrap_mode == WrapMode::kAlways) wrapping.gap = share_of("--wrap", wrap, "auto, never", {0.004, 0.2});
 }
 
 void add_repair_options(CommandLine& line, RepairSettings& settings) {
@@ -86,6 +117,10 @@ void add_repair_options(CommandLine& line, RepairSettings& settings) {
       "--open", settings.options.open,
       {{"ends", OpenEnds::kEnds}, {"cap", OpenEnds::kCap}, {"fail", OpenEnds::kFail}},
       "ends: where a tube is open its skeleton ends, other holes are closed; cap: all are; fail: refuse");
+  line.text(
+      "--wrap", settings.wrap, "auto|never|SHARE",
+      "one surface round it all that closes gaps below this share of the extent; auto: where mending would "
+      "make up more than a quarter of the surface, at a scale that the mesh tells");
   line.choice<bool>("--shells", settings.unite, {{"union", true}, {"each", false}},
                     "union: shells that cross each other are one solid; each: every shell has a skeleton");
 }
@@ -113,7 +148,9 @@ MeshInput prepare_mesh(const PolygonSoup& soup, const RepairSettings& settings, 
   const bool wants_more =
       settings.options.weld > 0 || settings.options.smallest_component != defaults.smallest_component;
   MeshInput input;
-  if (!settings.repair) {
+  if (settings.wrap_mode == WrapMode::kAlways) {
+    input = wrap(soup, settings, execution);
+  } else if (!settings.repair) {
     input.built = build_mesh_with_report(soup);
   } else if (wants_more) {
     input = mend(soup, settings);
@@ -124,19 +161,16 @@ MeshInput prepare_mesh(const PolygonSoup& soup, const RepairSettings& settings, 
       input = mend(soup, settings);
     }
   }
-  if (settings.unite) unite(input, execution);
+  if (settings.wrap_mode == WrapMode::kAuto && is_guesswork(input.repair.counts))
+    input = wrap(soup, settings, execution);
+  if (settings.unite && !input.wrapped) unite(input, execution);
   input.built.warnings.insert(input.built.warnings.begin(), soup.warnings.begin(), soup.warnings.end());
   if (!settings.write_mesh.empty()) write_mesh(settings.write_mesh, input.built.mesh);
   return input;
 }
 
-Json repair_facts(const MeshInput& input) {
-  const MendCounts& c = input.repair.counts;
-  Json openings = Json::array();
-  for (const Opening& opening : input.repair.openings) openings.push_back(opening_json(opening));
-  return {{"mended", input.mended},
-          {"points", input.repair.vertex_of_point.size()},
-          {"welded_points", c.welded_points},
+Json counts_json(const MendCounts& c) {
+  return {{"welded_points", c.welded_points},
           {"stitched_points", c.stitched_points},
           {"isolated_points", c.isolated_points},
           {"degenerate_faces", c.degenerate_faces},
@@ -150,15 +184,28 @@ Json repair_facts(const MeshInput& input) {
           {"split_edges", c.split_edges},
           {"holes", c.holes},
           {"hole_faces", c.hole_faces},
+          {"hole_share", c.hole_share},
           {"joined_pieces", c.joined_pieces},
           {"flat_components", c.flat_components},
           {"small_components", c.small_components},
-          {"small_faces", c.small_faces},
-          {"united_shells", input.united ? input.united->shells : 0},
-          {"united_solids", input.united ? input.united->solids : 0},
-          {"shells_left_apart", input.united ? input.united->left_apart : 0},
-          {"cell", input.united ? input.united->cell : 0.0},
-          {"openings", openings}};
+          {"small_faces", c.small_faces}};
+}
+
+Json repair_facts(const MeshInput& input) {
+  Json openings = Json::array();
+  for (const Opening& opening : input.repair.openings) openings.push_back(opening_json(opening));
+  Json facts{{"mended", input.mended}, {"points", input.repair.vertex_of_point.size()}};
+  facts.update(counts_json(input.repair.counts));
+  facts.update({{"united_shells", input.united ? input.united->shells : 0},
+                {"united_solids", input.united ? input.united->solids : 0},
+                {"shells_left_apart", input.united ? input.united->left_apart : 0},
+                {"wrapped", input.wrapped.has_value()},
+                {"gap", input.wrapped ? input.wrapped->gap : 0.0},
+                {"cell", input.wrapped  ? input.wrapped->cell
+                         : input.united ? input.united->cell
+                                        : 0.0},
+                {"openings", openings}});
+  return facts;
 }
 
 }  // namespace mspskel::cli

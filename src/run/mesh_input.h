@@ -9,18 +9,24 @@
 #include "mspskel/mesh/build_mesh.h"
 #include "mspskel/repair/mend_soup.h"
 #include "mspskel/repair/unite_shells.h"
+#include "mspskel/repair/wrap_soup.h"
 #include "mspskel/skeleton/curve_skeleton.h"
 
 namespace mspskel::cli {
+
+enum class WrapMode { kAuto, kNever, kAlways };
 
 struct RepairSettings {
   bool repair = true;
   MendOptions options;
   std::string components = "0.025";  // as given; resolve() reads it
   bool unite = true;                 // shells that cross each other
-  std::string write_mesh;            // file for the surface that the skeleton belongs to; empty: none
+  std::string wrap = "auto";         // as given; resolve() reads it
+  WrapMode wrap_mode = WrapMode::kAuto;
+  WrapOptions wrapping;
+  std::string write_mesh;  // file for the surface that the skeleton belongs to; empty: none
 
-  // Sets what --components says. Throws UsageError.
+  // Sets what --components and --wrap say. Throws UsageError.
   void resolve();
 };
 
@@ -32,6 +38,7 @@ struct MeshInput {
   bool mended = false;
   MendedSoup repair;                   // of a mended one, without its soup
   std::optional<UnitedShells> united;  // if shells crossed; without its soup
+  std::optional<WrappedSoup> wrapped;  // without its soup
   // The mesh's vertex that stands for each point of the file; empty: its own.
   std::vector<Index> vertex_of_point;
 
@@ -47,12 +54,13 @@ struct MeshInput {
 };
 
 // A closed, manifold mesh comes through as build_mesh leaves it, unless the settings ask for more; any other
-// is mended, which the first warning sums up. Then shells that cross each other are united. Writes
-// settings.write_mesh. Throws MeshError, WriteError.
+// is mended, which the first warning sums up, or wrapped. Then shells that cross each other are united.
+// Writes settings.write_mesh. Throws MeshError, WriteError.
 MeshInput prepare_mesh(const PolygonSoup& soup, const RepairSettings& settings,
                        const Execution& execution = {});
 
 // What was done, for the report.
 Json repair_facts(const MeshInput& input);
+Json counts_json(const MendCounts& counts);
 
 }  // namespace mspskel::cli

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "certificate.h"
+#include "mesh_input.h"
 
 namespace mspskel::cli {
 namespace {
@@ -112,6 +113,21 @@ Json with_costs(const Json& report, const Json& options, const ExtractResult& re
           {"skeleton", report["skeleton"]},
           {"checks", report["checks"]},
           {"warnings", report["warnings"]}};
+}
+
+Json error_json(const Error& error) {
+  return {{"status", static_cast<int>(error.kind())}, {"message", error.what()}};
+}
+
+Json refusal_report(const std::string& file, const Json& options, const Error& error, double seconds) {
+  Json report{{"input", {{"file", file}}}};
+  if (const auto* mending = dynamic_cast<const MendError*>(&error))
+    report["repair"] = counts_json(mending->counts);
+  report.update({{"options", options},
+                 {"seconds", {{"total", seconds}}},
+                 {"peak_memory_bytes", peak_memory_bytes()},
+                 {"error", error_json(error)}});
+  return report;
 }
 
 Json checks_json(const SkeletonChecks& checks, const TopologyCertificate& certificate,

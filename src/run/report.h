@@ -4,6 +4,7 @@
 #include <string>
 
 #include "command_line.h"
+#include "mspskel/base/error.h"
 #include "mspskel/collapse/topology_certificate.h"
 #include "mspskel/extract_skeleton.h"
 #include "mspskel/limbs/coverage.h"
@@ -26,6 +27,12 @@ Json make_report(const std::string& file, const ExtractResult& result, const Top
 // With what differs from run to run: the options' values, seconds, peak memory.
 Json with_costs(const Json& report, const Json& options, const ExtractResult& result,
                 const ProgramSeconds& seconds);
+
+// Of a mesh without a result: file, options, seconds, and why; with what mending had done if it refused.
+Json refusal_report(const std::string& file, const Json& options, const Error& error, double seconds);
+
+// The report's "error": exit status and message.
+Json error_json(const Error& error);
 
 // What `check` found.
 Json checks_json(const SkeletonChecks& checks, const TopologyCertificate& certificate,

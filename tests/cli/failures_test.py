@@ -5,7 +5,7 @@ import subprocess
 import time
 import unittest
 
-from program import CANCELLED, MESH, PROGRAM, READ, TETRAHEDRON, WRITE, ProgramTest
+from program import CANCELLED, MESH, PROGRAM, READ, TETRAHEDRON, USAGE, WRITE, ProgramTest
 
 
 class Reading(ProgramTest):
@@ -89,6 +89,14 @@ class Ending(ProgramTest):
                                  "--stages", "s")
         self.assertIn("time limit", message)
         self.assertLess(time.monotonic() - start, 30)
+
+    def test_memory_limit(self):
+        mesh = self.sample("torus", 100000)
+        message = self.run_program(mesh, "a.skel", "--max-memory", "60")
+        if b"the program alone takes" in message.stderr:
+            self.skipTest("built with a sanitizer, which takes memory of its own")
+        self.assertIn("60 MB of --max-memory", self.fail_with(CANCELLED, mesh, "a.skel", "--max-memory", "60"))
+        self.assertIn("the program alone", self.fail_with(USAGE, mesh, "a.skel", "--max-memory", "0.001"))
 
     def test_interrupt_leaves_an_older_result_as_it_was(self):
         mesh = self.sample("torus", 20000)

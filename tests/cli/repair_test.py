@@ -3,7 +3,7 @@ import json
 import math
 import unittest
 
-from program import DONE, MESH, TETRAHEDRON, USAGE, ProgramTest
+from program import DONE, MESH, READ, TETRAHEDRON, USAGE, ProgramTest
 
 
 def read_off(path):
@@ -59,6 +59,27 @@ class Repair(ProgramTest):
             self.assertLess(min(math.dist(opening["centre"], end) for end in ends), 0.05)
         self.assertEqual({round(o["centre"][2], 3) for o in openings}, {round(top, 3), round(low, 3)})
 
+    def refusal(self, status, *arguments):
+        """The report of a run that leaves nothing else."""
+        before = self.files()
+        result = self.run_program(*arguments, "a.skel", "--report", "refusal.json")
+        self.assertEqual(result.returncode, status, result.stderr)
+        self.assertEqual(set(self.files()) - set(before), {"refusal.json"})
+        report = json.loads((self.folder / "refusal.json").read_text())
+        (self.folder / "refusal.json").unlink()
+        self.assertEqual((report["input"]["file"], report["error"]["status"]), (arguments[0], status))
+        self.assertIn(report["error"]["message"], result.stderr.decode())
+        return report
+
+    def test_refusals_are_reported_with_counts_and_reason(self):
+        self.open_tube()
+        self.write("sheet.off", "OFF\n5 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n1 0 0\n3 0 1 2\n3 0 2 3\n")
+        self.write("bad.off", TETRAHEDRON.replace("3 1 2 3", "3 1 2 x"))
+        self.assertIn("repair", self.refusal(MESH, "open.off", "--open", "fail"))
+        self.assertEqual(self.refusal(MESH, "sheet.off")["repair"]["isolated_points"], 1)
+        self.assertNotIn("repair", self.refusal(MESH, "open.off", "--repair", "off"))
+        self.assertIn("line 9", self.refusal(READ, "bad.off")["error"]["message"])
+
     def test_check_mends_as_the_extraction_did(self):
         self.open_tube()
         self.mended("open.off", "a.skel")
@@ -71,6 +92,32 @@ class Repair(ProgramTest):
         self.assertIn("2 holes closed", self.mended("open.off", "a.skel", "--open", "cap"))
         self.fail_with(MESH, "open.off", "b.skel", "--repair", "off")
         self.assertIn("--components", self.fail_with(USAGE, "open.off", "b.skel", "--components", "some"))
+
+    def apart(self):
+        """The faces of a capsule, each with corners of its own and drawn in by a tenth: nothing meets."""
+        points, faces = read_off(self.folder / self.sample("capsule", 200))
+        loose = []
+        for face in faces:
+            middle = [sum(points[v][k] for v in face) / 3 for k in range(3)]
+            loose += [tuple(0.9 * points[v][k] + 0.1 * middle[k] for k in range(3)) for v in face]
+        write_off(self.folder / "loose.off", loose, [(i, i + 1, i + 2) for i in range(0, len(loose), 3)])
+        return len(loose)
+
+    def test_what_does_not_meet_is_wrapped(self):
+        count = self.apart()
+        self.assertIn("--wrap", self.fail_with(MESH, "loose.off", "a.skel"))
+        result = self.run_program("loose.off", "a.json", "a.skel", "--wrap", "0.05", "--report", "r.json", "--write-mesh",
+                                  "w.off")
+        self.assertEqual(result.returncode, DONE, result.stderr)
+        self.assertIn(b"wrapped to 1 solid", result.stderr)
+        report = json.loads((self.folder / "r.json").read_text())
+        self.assertTrue(report["repair"]["wrapped"])
+        self.assertEqual((report["input"]["components"], report["input"]["genus"]), (1, 0))
+        nodes = json.loads((self.folder / "a.json").read_text())["node_of_vertex"]
+        self.assertEqual(len(nodes), count)
+        self.assertNotIn(-1, nodes)
+        self.succeed("check", "w.off", "a.skel", "-q")
+        self.assertIn("--wrap", self.fail_with(USAGE, "loose.off", "b.skel", "--wrap", "0.5"))
 
     def two_crossing_capsules(self):
         points, faces = read_off(self.folder / self.sample("capsule", 400))

@@ -1,0 +1,17 @@
+// --max-memory: a program that needs more ends with a word instead of making the machine swap.
+#pragma once
+
+#include <string>
+
+namespace mspskel::cli {
+
+// From here on the process gets no more than so many megabytes (10^6 bytes) of memory of its own; 0 sets no
+// limit. What does not fit throws std::bad_alloc. Throws UsageError if it has more already, or where the
+// system knows no such limit.
+void limit_memory(double megabytes);
+
+// What to say where memory is short: names the limit if there is one.
+std::string out_of_memory_text();
+bool memory_is_limited();
+
+}  // namespace mspskel::cli
