@@ -133,7 +133,8 @@ struct Extraction {
 void segment(const ExtractSettings& settings, Extraction& extraction) {
   const Stopwatch segmenting;
   ExtractResult& result = extraction.made.result;
-  extraction.segmentation = segment_surface(result.surface, result.skeleton, settings.segmentation);
+  extraction.segmentation = segment_surface(result.surface, result.skeleton, settings.segmentation,
+                                            result.coarse ? &*result.coarse : nullptr);
   result.seconds.emplace_back("parts", segmenting.seconds());
 }
 

@@ -77,7 +77,8 @@ Segmentation segment(const Extraction& self, Index parts) {
   const nb::gil_scoped_release unlocked;
   SegmentOptions options;
   options.parts.count = parts;
-  return segment_surface(self.made.result.surface, self.made.result.skeleton, options);
+  const ExtractResult& result = self.made.result;
+  return segment_surface(result.surface, result.skeleton, options, result.coarse ? &*result.coarse : nullptr);
 }
 
 template <class Value>

@@ -8,9 +8,10 @@
 namespace mspskel::detail {
 namespace {
 
-// How far weights spread for each unit of the way that the map jumps. A joint at one end of half of that way
-// that is turned by 45 degrees moves a vertex by 0.77 of it; with less than a third faces turn over.
-constexpr double kReach = 1.0 / 3;
+// How far weights spread for each unit of the way that the map jumps. At a seam they change by half per
+// reach; a joint at one end of the way that is turned by 45 degrees moves what is at the other by 0.77 of it,
+// so with less than 0.38 faces turn over.
+constexpr double kReach = 0.4;
 // And at most in radii: where a limb's tip touches another's root, all of both would follow both.
 constexpr double kMostReach = 4;
 // Weights below this have no visible effect.
@@ -34,6 +35,7 @@ class Seams {
     }
     for (Index h = 0; h < surface.halfedge_count(); ++h) {
       const Index v = surface.origin[h], w = surface.target(h);
+      if (node_of_vertex_[v] == node_of_vertex_[w]) continue;
       const double jump = way(node_of_vertex_[v], node_of_vertex_[w]) - edge_length(h);
       const double most = kMostReach * skeleton.nodes[node_of_vertex_[v]].radius / surface.frame.scale;
       reach_[v] = std::max(reach_[v], std::min(kReach * jump, most));

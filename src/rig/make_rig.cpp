@@ -43,12 +43,13 @@ class Skinning {
     for (const Index n : tree.order)
       if (tree.parent[n] != kNone) depth_[n] = depth_[tree.parent[n]] + tree.above[n];
     for (Index j = 0; j < static_cast<Index>(width_.size()); ++j)
-      width_[j] = blend * skeleton.nodes[rig.joints[j].node].radius;
+      width_[j] = blend * detail::half_width(skeleton.nodes[rig.joints[j].node]);
     for (Index j = 1; j < static_cast<Index>(width_.size()); ++j) {
       const Index above = rig.joints[j].parent;
-      const double half = 0.5 * (depth_[rig.joints[j].node] - depth_[rig.joints[above].node]);
-      width_[j] = std::min(width_[j], half);
-      width_[above] = std::min(width_[above], half);
+      const double bone = depth_[rig.joints[j].node] - depth_[rig.joints[above].node];
+      // Nothing follows two bones at the root, so what hangs on it may have all of its bone.
+      width_[j] = std::min(width_[j], above == 0 ? bone : 0.5 * bone);
+      width_[above] = std::min(width_[above], 0.5 * bone);
       has_child_[above] = 1;
     }
   }
@@ -104,27 +105,70 @@ class Skinning {
   std::vector<char> has_child_;
 };
 
-// Each vertex half its own and half its neighbours' mean, so weights spread along the surface only.
-void smooth(const SurfaceSnapshot& surface, Index rounds, std::vector<Weights>& weights) {
-  std::vector<Weights> next(weights.size());
-  for (Index round = 0; round < rounds; ++round) {
-    for (Index v = 0; v < surface.vertex_count(); ++v) {
-      Index degree = 0;
-      bool same = true;
-      for_each_neighbour(surface, v, [&](Index w) {
-        ++degree;
-        same = same && weights[w] == weights[v];
-      });
-      next[v] = weights[v];
-      if (same) continue;
-      for (auto& entry : next[v]) entry.second *= 0.5;
-      for_each_neighbour(surface, v, [&](Index w) {
-        for (const auto& [joint, weight] : weights[w]) add(next[v], joint, 0.5 * weight / degree);
-      });
+// Averages weights with those of the neighbours on the surface. Rounds reach no farther than an edge each, so
+// they leave out what lies in the midst of equal weights.
+class Smoothing {
+ public:
+  Smoothing(const SurfaceSnapshot& surface, Index joints, Index rounds)
+      : surface_(surface), rounds_(rounds), sum_(joints, 0.0) {}
+
+  // Each vertex gets the mean of its own and its neighbours', so weights spread along the surface only.
+  void run(std::vector<Weights>& weights) {
+    const std::vector<Index> first = first_rounds(weights);
+    std::vector<Index> moving;
+    for (Index v = 0; v < surface_.vertex_count(); ++v)
+      if (first[v] < rounds_) moving.push_back(v);
+    std::vector<Weights> next = weights;
+    for (Index round = 0; round < rounds_; ++round) {
+      for (const Index v : moving)
+        if (first[v] <= round) average(weights, v, next[v]);
+      weights.swap(next);
     }
-    weights.swap(next);
   }
-}
+
+ private:
+  // Per vertex the round in which a neighbour's weights may first differ from its own.
+  std::vector<Index> first_rounds(const std::vector<Weights>& weights) const {
+    std::vector<Index> first(weights.size(), rounds_), wave;
+    for (Index h = 0; h < surface_.halfedge_count(); ++h) {
+      const Index v = surface_.origin[h];
+      if (first[v] == 0 || weights[v] == weights[surface_.target(h)]) continue;
+      first[v] = 0;
+      wave.push_back(v);
+    }
+    for (std::size_t i = 0; i < wave.size(); ++i)
+      for_each_neighbour(surface_, wave[i], [&](Index w) {
+        if (first[w] <= first[wave[i]] + 1) return;
+        first[w] = first[wave[i]] + 1;
+        wave.push_back(w);
+      });
+    return first;
+  }
+  void give(Index joint, double weight) {
+    if (sum_[joint] == 0) touched_.push_back(joint);
+    sum_[joint] += weight;
+  }
+  void average(const std::vector<Weights>& weights, Index v, Weights& into) {
+    double count = 1;
+    for (const auto& [joint, weight] : weights[v]) give(joint, weight);
+    for_each_neighbour(surface_, v, [&](Index w) {
+      ++count;
+      for (const auto& [joint, weight] : weights[w]) give(joint, weight);
+    });
+    std::sort(touched_.begin(), touched_.end());
+    into.clear();
+    for (const Index joint : touched_) {
+      into.emplace_back(joint, sum_[joint] / count);
+      sum_[joint] = 0;
+    }
+    touched_.clear();
+  }
+
+  const SurfaceSnapshot& surface_;
+  const Index rounds_;
+  std::vector<double> sum_;     // per joint, and 0 between vertices
+  std::vector<Index> touched_;  // joints whose sum is not 0
+};
 
 // The ancestor of `joint`, or itself, that hangs on `above`; kNone where it does not hang on it.
 Index child_towards(const Rig& rig, Index above, Index joint) {
@@ -132,10 +176,21 @@ Index child_towards(const Rig& rig, Index above, Index joint) {
   return joint;
 }
 
+// Whether each joint hangs on the one before it.
+bool is_one_path(const Rig& rig, const Weights& weights) {
+  for (std::size_t i = 1; i < weights.size(); ++i) {
+    Index joint = weights[i].first;
+    while (joint > weights[i - 1].first) joint = rig.joints[joint].parent;
+    if (joint != weights[i - 1].first) return false;
+  }
+  return true;
+}
+
 // A vertex follows joints of one way from the root only, so that no limb pulls at another. Where several
 // children of a joint pull, the strongest keeps what it has more than the second, and the joint has the rest:
 // halfway between two limbs that is all, so weights stay continuous.
 Weights on_one_path(const Rig& rig, Weights weights) {
+  if (is_one_path(rig, weights)) return weights;
   for (Index here = 0; weights.size() > 1 && here != kNone;) {
     Weights children;
     for (const auto& [joint, weight] : weights)
@@ -161,8 +216,9 @@ Weights on_one_path(const Rig& rig, Weights weights) {
 }
 
 std::array<Influence, 4> strongest(Weights weights) {
-  std::stable_sort(weights.begin(), weights.end(),
-                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::sort(weights.begin(), weights.end(), [](const auto& a, const auto& b) {
+    return a.second > b.second || (a.second == b.second && a.first < b.first);
+  });
   // Less than this nobody sees, and files keep no more than seven digits.
   constexpr double kLeast = 1e-4;
   std::array<Influence, 4> influences{};
@@ -210,7 +266,7 @@ Rig make_rig(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton, cons
   for (Index v = 0; v < surface.vertex_count(); ++v)
     if (surface.vertex_halfedge[v] != kNone) weights[v] = of_node[skeleton.node_of_vertex[v]];
   detail::close_seams(surface, skeleton, tree, weights);
-  smooth(surface, options.smoothing, weights);
+  Smoothing(surface, static_cast<Index>(rig.joints.size()), options.smoothing).run(weights);
   for (Weights& w : weights) rig.influences.push_back(strongest(on_one_path(rig, std::move(w))));
   return rig;
 }

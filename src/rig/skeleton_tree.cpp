@@ -110,8 +110,7 @@ class JointChoice {
     marked_[n] = 0;
   }
   const SkeletonNode& node(Index n) const { return skeleton_.nodes[n]; }
-  // A palm is wider than its inscribed ball.
-  double half_width(Index n) const { return std::max(node(n).radius, node(n).perimeter / (2 * kPi)); }
+  double half_width(Index n) const { return detail::half_width(node(n)); }
   // Nodes from the joint above `joint` down to it.
   std::vector<Index> bone(Index joint) const {
     std::vector<Index> nodes{joint};
@@ -221,6 +220,8 @@ class JointChoice {
 };
 
 }  // namespace
+
+double half_width(const SkeletonNode& node) { return std::max(node.radius, node.perimeter / (2 * kPi)); }
 
 SkeletonTree make_skeleton_tree(const CurveSkeleton& skeleton) {
   const Index median = median_node(skeleton, tree_from(skeleton, 0));

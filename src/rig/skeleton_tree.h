@@ -17,6 +17,9 @@ struct SkeletonTree {
   Index root() const { return order.front(); }
 };
 
+// Of the cross-section: a palm is wider than its inscribed ball.
+double half_width(const SkeletonNode& node);
+
 // Shortest ways along the skeleton from the node of least summed distance to the surface's area, moved to a
 // junction whose ball reaches it. O(nodes log nodes) for trees.
 SkeletonTree make_skeleton_tree(const CurveSkeleton& skeleton);

@@ -123,7 +123,11 @@ ViewerScene make_page_scene(const std::string& input, const CheckedExtraction& m
   }
   scene.slice_normal = result.slices.normal;
   if (!result.skeleton.nodes.empty()) {
-    add_parts(result.surface, parts ? *parts : segment_surface(result.surface, result.skeleton), scene);
+    add_parts(result.surface,
+              parts ? *parts
+                    : segment_surface(result.surface, result.skeleton, {},
+                                      result.coarse ? &*result.coarse : nullptr),
+              scene);
     add_rig(rig ? *rig : make_rig(result.surface, result.skeleton), scene);
   }
   scene.places = {parts_without_arc(made.uncovered), vertices_without_slice(result),

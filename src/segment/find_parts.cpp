@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <queue>
-#include <tuple>
 
 #include "cross_sections.h"
 #include "mspskel/base/error.h"
@@ -47,7 +44,8 @@ class PartFinder {
         next_(adjacency(skeleton)),
         size_(detail::cross_sections(skeleton, next_)),
         part_(skeleton.nodes.size(), kNone),
-        seen_(skeleton.nodes.size(), 0) {
+        distance_(skeleton.nodes.size(), kInfinite),
+        side_(skeleton.nodes.size(), 0) {
     for (const SkeletonNode& node : skeleton.nodes) total_ += node.area;
   }
 
@@ -105,27 +103,30 @@ class PartFinder {
     }
   }
 
-  // The part's cross-sections on either side of the edge a-b, by distance along the skeleton.
+  // The part's cross-sections on either side of the edge a-b, by distance along the skeleton. Nodes are taken
+  // in the order in which they are first reached, and again where a shorter way turns up, which on trees
+  // never happens.
   std::array<std::vector<CrossSection>, 2> sides_of(Index a, Index b, double limit) {
-    std::array<std::vector<CrossSection>, 2> sides;
-    using Item = std::tuple<double, Index, int>;
-    std::priority_queue<Item, std::vector<Item>, std::greater<Item>> queue;
-    queue.push({0.5 * length(a, b), a, 0});
-    queue.push({0.5 * length(a, b), b, 1});
-    std::vector<Index> visited;
-    while (!queue.empty()) {
-      const auto [distance, n, side] = queue.top();
-      queue.pop();
-      if (seen_[n]) continue;
-      seen_[n] = 1;
-      visited.push_back(n);
-      sides[side].push_back({size_[n], distance});
-      for (const Index k : next_[n]) {
-        const double there = distance + length(n, k);
-        if (part_[k] == part_[n] && !seen_[k] && there <= limit) queue.push({there, k, side});
-      }
+    reached_.clear();
+    const auto reach = [&](Index n, double distance, char side) {
+      if (distance > limit || distance >= distance_[n]) return;
+      distance_[n] = distance;
+      side_[n] = side;
+      reached_.push_back(n);
+    };
+    reach(a, 0.5 * length(a, b), 0);
+    reach(b, 0.5 * length(a, b), 1);
+    for (std::size_t i = 0; i < reached_.size(); ++i) {
+      const Index n = reached_[i];
+      for (const Index k : next_[n])
+        if (part_[k] == part_[n]) reach(k, distance_[n] + length(n, k), side_[n]);
     }
-    for (const Index n : visited) seen_[n] = 0;
+    std::array<std::vector<CrossSection>, 2> sides;
+    for (const Index n : reached_) {
+      if (distance_[n] == kInfinite) continue;
+      sides[side_[n]].push_back({size_[n], distance_[n]});
+      distance_[n] = kInfinite;
+    }
     return sides;
   }
   // The widest straight taper over the edge a-b, from the largest cross-section near it on one side to any on
@@ -145,15 +146,18 @@ class PartFinder {
     return best;
   }
 
-  // Keeps the cut if it is clean enough and cleaner than the best. `radius` is the cross-section's,
-  // `contrast` its share of the taper's, `area` what is cut off from `whole`.
+  // Whether what a cross-section cuts off is a part by its size. `area` is what is cut off from `whole`.
+  bool is_part(double radius, double area, double whole) const {
+    const double smaller = std::min(area, whole - area), perimeter = 2 * kPi * radius;
+    return smaller > 0 && smaller >= options_.smallest * total_ &&
+           smaller >= options_.slenderness * perimeter * perimeter;
+  }
+  // Keeps the cut if it is clean enough and cleaner than the best. `contrast` is the cross-section's share of
+  // the taper's.
   void consider(Cut& best, double radius, double contrast, double area, double whole,
                 std::vector<Edge> edges) const {
-    const double smaller = std::min(area, whole - area);
-    if (contrast > options_.contrast || smaller < options_.smallest * total_ || smaller <= 0) return;
-    const double perimeter = 2 * kPi * radius;
-    if (smaller < options_.slenderness * perimeter * perimeter) return;
-    const double score = contrast * perimeter / std::sqrt(smaller);
+    if (contrast > options_.contrast || !is_part(radius, area, whole)) return;
+    const double score = contrast * 2 * kPi * radius / std::sqrt(std::min(area, whole - area));
     if (score < best.score) best = {score, std::move(edges)};
   }
 
@@ -166,7 +170,8 @@ class PartFinder {
       if (!tree.is_bridge(n)) continue;
       const Index m = tree.parent[n];
       const double radius = std::max(0.5 * (size_[m] + size_[n]), kStraightened * tree.border[n] / (2 * kPi));
-      consider(best, radius, radius / tapered(m, n, widest), tree.area[n], tree.area[root], {{m, n}});
+      if (is_part(radius, tree.area[n], tree.area[root]))
+        consider(best, radius, radius / tapered(m, n, widest), tree.area[n], tree.area[root], {{m, n}});
     }
     for (const std::vector<Index>& chain : chains_on_cycles(tree))
       cut_stretch(best, chain, widest, tree.area[root]);
@@ -227,7 +232,9 @@ class PartFinder {
   std::vector<std::vector<Index>> next_;
   std::vector<double> size_;  // per node: radius of a circle with the cross-section's perimeter
   std::vector<Index> part_;
-  std::vector<char> seen_;
+  std::vector<double> distance_;  // of sides_of, and infinite between its calls
+  std::vector<char> side_;
+  std::vector<Index> reached_;
   std::vector<Index> root_;  // per part: one of its nodes
   std::vector<Cut> cut_;     // per part: its cleanest
   double total_ = 0;

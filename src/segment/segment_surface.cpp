@@ -1,9 +1,11 @@
 #include "mspskel/segment/segment_surface.h"
 
 #include <algorithm>
-#include <map>
 #include <numeric>
+#include <optional>
+#include <utility>
 
+#include "coarse_parts.h"
 #include "mspskel/base/error.h"
 #include "mspskel/segment/smooth_borders.h"
 #include "mspskel/skeleton/check_surface_map.h"
@@ -22,6 +24,15 @@ std::vector<Index> carry_to_faces(const SurfaceSnapshot& surface, const CurveSke
     part[f] = corner(1) == corner(2) ? corner(1) : corner(0);
   }
   return part;
+}
+
+Index count_of(const std::vector<Index>& part) { return 1 + *std::max_element(part.begin(), part.end()); }
+
+// Whether each part from 0 to `count` - 1 has a face.
+bool has_all(const std::vector<Index>& part_of_face, Index count) {
+  std::vector<char> has(count, 0);
+  for (const Index p : part_of_face) has[p] = 1;
+  return std::all_of(has.begin(), has.end(), [](char h) { return h != 0; });
 }
 
 std::vector<double> face_areas(const SurfaceSnapshot& surface) {
@@ -46,12 +57,19 @@ void number_by_area(const std::vector<double>& area_of_face, Segmentation& segme
 std::vector<Index> parts_of_nodes(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton,
                                   const std::vector<double>& area_of_face,
                                   const std::vector<Index>& part_of_face) {
-  std::vector<std::map<Index, double>> share(skeleton.nodes.size());
-  for (Index h = 0; h < surface.halfedge_count(); ++h)
-    share[skeleton.node_of_vertex[surface.origin[h]]][part_of_face[h / 3]] += area_of_face[h / 3];
+  std::vector<std::vector<std::pair<Index, double>>> share(skeleton.nodes.size());
+  for (Index h = 0; h < surface.halfedge_count(); ++h) {
+    auto& shares = share[skeleton.node_of_vertex[surface.origin[h]]];
+    const Index part = part_of_face[h / 3];
+    auto at =
+        std::find_if(shares.begin(), shares.end(), [&](const auto& entry) { return entry.first == part; });
+    if (at == shares.end()) at = shares.insert(at, {part, 0.0});
+    at->second += area_of_face[h / 3];
+  }
   std::vector<Index> part(skeleton.nodes.size(), kNone);
   for (std::size_t n = 0; n < share.size(); ++n) {
     double most = -1;
+    std::sort(share[n].begin(), share[n].end());
     for (const auto& [p, area] : share[n])
       if (area > most) {
         most = area;
@@ -61,14 +79,19 @@ std::vector<Index> parts_of_nodes(const SurfaceSnapshot& surface, const CurveSke
   return part;
 }
 
+// The parts on one surface, whose map the skeleton has. The contacts are the input's.
 class Segmenter {
  public:
-  Segmenter(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton, const SegmentOptions& options)
+  Segmenter(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton,
+            const std::vector<NodeContact>& contacts, const SegmentOptions& options)
       : surface_(surface),
         skeleton_(skeleton),
         options_(options),
-        contacts_(node_contacts(surface, skeleton)),
+        contacts_(contacts),
         costs_(border_costs(surface, options.creases)) {}
+
+  // Whether the surface was too coarse for some part of the skeleton.
+  bool lost_part() const { return lost_; }
 
   // The parts of creases come after those of the skeleton's clear cuts, and before the others.
   std::vector<Index> run() {
@@ -78,7 +101,7 @@ class Segmenter {
     std::vector<Index> part = carried(clear);
     split(part, 0);
     if (wanted == 0) return part;
-    const Index found = 1 + *std::max_element(part.begin(), part.end());
+    const Index found = count_of(part);
     if (found < wanted) {
       part = carried(cut_skeleton(clear.count + wanted - found));
       split(part, wanted);
@@ -93,8 +116,9 @@ class Segmenter {
     return find_parts(skeleton_, contacts_, options);
   }
   // With smooth borders, and connected.
-  std::vector<Index> carried(const SkeletonParts& parts) const {
+  std::vector<Index> carried(const SkeletonParts& parts) {
     std::vector<Index> part = carry_to_faces(surface_, skeleton_, parts.part_of_node);
+    lost_ = lost_ || !has_all(part, parts.count);
     connect_parts(surface_, part);
     smooth_borders(surface_, costs_, part, options_.border_width);
     connect_parts(surface_, part);
@@ -110,47 +134,94 @@ class Segmenter {
   const SurfaceSnapshot& surface_;
   const CurveSkeleton& skeleton_;
   const SegmentOptions& options_;
-  const std::vector<NodeContact> contacts_;
+  const std::vector<NodeContact>& contacts_;
   const std::vector<double> costs_;
+  bool lost_ = false;
 };
+
+double mean_edge_length(const SurfaceSnapshot& surface) {
+  double sum = 0;
+  for (Index h = 0; h < surface.halfedge_count(); ++h)
+    sum += (surface.position[surface.target(h)] - surface.position[surface.origin[h]]).norm();
+  return sum / surface.halfedge_count();
+}
+
+// Empty where the coarse surface is too coarse for the parts.
+std::vector<Index> parts_by_coarse_surface(const SurfaceSnapshot& surface, const CoarseSurface& coarse,
+                                           const CurveSkeleton& skeleton,
+                                           const std::vector<NodeContact>& contacts,
+                                           const SegmentOptions& options) {
+  const CurveSkeleton carried = detail::on_coarse_surface(surface, coarse, skeleton);
+  Segmenter segmenter(coarse.surface, carried, contacts, options);
+  const std::vector<Index> found = segmenter.run();
+  const Index count = count_of(found);
+  if (segmenter.lost_part() || count < options.parts.count) return {};
+  auto [part, near_border] = detail::carried_to_input(surface, coarse, found);
+  if (!has_all(part, count)) return {};
+  connect_parts(surface, part);
+  smooth_borders(surface, border_costs(surface, options.creases, near_border), part, options.border_width,
+                 mean_edge_length(coarse.surface));
+  connect_parts(surface, part);
+  return part;
+}
+
+std::vector<Index> find_parts_of_faces(const SurfaceSnapshot& surface, const CoarseSurface* coarse,
+                                       const CurveSkeleton& skeleton, const SegmentOptions& options) {
+  const std::vector<NodeContact> contacts = node_contacts(surface, skeleton);
+  std::optional<CoarseSurface> made;
+  if (coarse == nullptr && surface.vertex_count() > options.coarsening.vertices)
+    coarse = &made.emplace(coarsen_surface(surface, options.coarsening));
+  if (coarse != nullptr) {
+    std::vector<Index> part = parts_by_coarse_surface(surface, *coarse, skeleton, contacts, options);
+    if (!part.empty()) return part;
+  }
+  return Segmenter(surface, skeleton, contacts, options).run();
+}
 
 }  // namespace
 
 std::vector<NodeContact> node_contacts(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton) {
   check_surface_map(surface, skeleton);
-  std::map<std::array<Index, 2>, double> length;
+  std::vector<NodeContact> pieces;
+  const auto add = [&](Index a, Index b, double length) {
+    pieces.push_back({{std::min(a, b), std::max(a, b)}, surface.frame.scale * length});
+  };
   for (Index f = 0; f < surface.face_count(); ++f) {
     std::array<Index, 3> node{};
     std::array<Vector3, 3> x;
-    for (int k = 0; k < 3; ++k) {
-      node[k] = skeleton.node_of_vertex[surface.origin[3 * f + k]];
-      x[k] = surface.position[surface.origin[3 * f + k]];
-    }
+    for (int k = 0; k < 3; ++k) node[k] = skeleton.node_of_vertex[surface.origin[3 * f + k]];
+    if (node[0] == node[1] && node[1] == node[2]) continue;
+    for (int k = 0; k < 3; ++k) x[k] = surface.position[surface.origin[3 * f + k]];
     const bool three = node[0] != node[1] && node[1] != node[2] && node[2] != node[0];
     const Vector3 middle = (x[0] + x[1] + x[2]) / 3;
     for (int k = 0; k < 3; ++k) {
       const int i = (k + 1) % 3, j = (k + 2) % 3;
       if (three)
-        length[{std::min(node[i], node[j]), std::max(node[i], node[j])}] +=
-            (middle - 0.5 * (x[i] + x[j])).norm();
-      else if (node[i] == node[j] && node[k] != node[i])
-        length[{std::min(node[i], node[k]), std::max(node[i], node[k])}] += 0.5 * (x[i] - x[j]).norm();
+        add(node[i], node[j], (middle - 0.5 * (x[i] + x[j])).norm());
+      else if (node[i] == node[j])
+        add(node[i], node[k], 0.5 * (x[i] - x[j]).norm());
     }
   }
+  std::stable_sort(pieces.begin(), pieces.end(),
+                   [](const NodeContact& a, const NodeContact& b) { return a.nodes < b.nodes; });
   std::vector<NodeContact> contacts;
-  contacts.reserve(length.size());
-  for (const auto& [nodes, sum] : length) contacts.push_back({nodes, surface.frame.scale * sum});
+  for (const NodeContact& piece : pieces)
+    if (!contacts.empty() && contacts.back().nodes == piece.nodes)
+      contacts.back().length += piece.length;
+    else
+      contacts.push_back(piece);
   return contacts;
 }
 
 Segmentation segment_surface(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton,
-                             const SegmentOptions& options) {
+                             const SegmentOptions& options, const CoarseSurface* coarse) {
   validate(options.parts);
   validate(options.crease_parts);
+  if (coarse != nullptr && static_cast<Index>(coarse->coarse_vertex.size()) != surface.vertex_count())
+    throw UsageError("parts: the coarse surface is another one's");
   Segmentation segmentation;
-  segmentation.part_of_face = Segmenter(surface, skeleton, options).run();
-  segmentation.count =
-      1 + *std::max_element(segmentation.part_of_face.begin(), segmentation.part_of_face.end());
+  segmentation.part_of_face = find_parts_of_faces(surface, coarse, skeleton, options);
+  segmentation.count = count_of(segmentation.part_of_face);
   const std::vector<double> area = face_areas(surface);
   number_by_area(area, segmentation);
   segmentation.part_of_node = parts_of_nodes(surface, skeleton, area, segmentation.part_of_face);

@@ -5,7 +5,6 @@
 #include <functional>
 #include <map>
 #include <queue>
-#include <set>
 #include <utility>
 
 #include "max_flow.h"
@@ -21,11 +20,12 @@ double edge_length(const SurfaceSnapshot& s, Index h) {
 class BorderSmoother {
  public:
   BorderSmoother(const SurfaceSnapshot& surface, const std::vector<double>& costs,
-                 std::vector<Index>& part_of_face, double width)
+                 std::vector<Index>& part_of_face, double width, double most)
       : surface_(surface),
         costs_(costs),
         part_(part_of_face),
         width_(width),
+        most_(most),
         place_(part_of_face.size(), kNone) {
     for (Index f = 0; f < surface.face_count(); ++f) {
       const Index h = 3 * f;
@@ -36,17 +36,32 @@ class BorderSmoother {
   }
 
   void run() {
-    std::set<std::pair<Index, Index>> pairs;
-    for (Index h = 0; h < surface_.halfedge_count(); ++h) {
-      const Index a = part_[h / 3], b = part_[surface_.twin[h] / 3];
-      if (a < b) pairs.insert({a, b});
+    for (Index h = 0; h < surface_.halfedge_count(); ++h)
+      if (h < surface_.twin[h]) note(h);
+    for (auto& [parts, border] : borders_) {
+      const auto [a, b] = parts;
+      std::sort(border.begin(), border.end());
+      border.erase(std::unique(border.begin(), border.end()), border.end());
+      border.erase(
+          std::remove_if(border.begin(), border.end(), [&](Index h) { return !is_border(h, parts); }),
+          border.end());
+      smooth(a, b, border);
     }
-    for (const auto& [a, b] : pairs) smooth(a, b);
   }
 
  private:
-  bool is_border(Index h, Index a, Index b) const {
-    return part_[h / 3] == a && part_[surface_.twin[h] / 3] == b;
+  using Parts = std::pair<Index, Index>;
+
+  bool is_border(Index h, const Parts& parts) const {
+    return Parts(part_[h / 3], part_[surface_.twin[h] / 3]) == parts;
+  }
+  // Keeps the half-edge, or its twin, with the border that it is on.
+  void note(Index h) {
+    const Index a = part_[h / 3], b = part_[surface_.twin[h] / 3];
+    if (a < b)
+      borders_[{a, b}].push_back(h);
+    else if (b < a)
+      borders_[{b, a}].push_back(surface_.twin[h]);
   }
   // Faces of both parts within `width` of their border, along the surface.
   std::vector<Index> band(Index a, Index b, const std::vector<Index>& border, double width) {
@@ -72,15 +87,17 @@ class BorderSmoother {
     return faces;
   }
 
-  void smooth(Index a, Index b) {
-    std::vector<Index> border;
+  void assign(Index f, Index part) {
+    if (part_[f] == part) return;
+    part_[f] = part;
+    // Its borders with third parts become those of another pair. Pairs whose turn is over stay as they are.
+    for (Index h = 3 * f; h < 3 * f + 3; ++h) note(h);
+  }
+
+  void smooth(Index a, Index b, const std::vector<Index>& border) {
     double length = 0;
-    for (Index h = 0; h < surface_.halfedge_count(); ++h)
-      if (is_border(h, a, b)) {
-        border.push_back(h);
-        length += edge_length(surface_, h);
-      }
-    const std::vector<Index> faces = band(a, b, border, width_ * length / (2 * kPi));
+    for (const Index h : border) length += edge_length(surface_, h);
+    const std::vector<Index> faces = band(a, b, border, std::min(most_, width_ * length / (2 * kPi)));
     const Index source = static_cast<Index>(faces.size()), sink = source + 1;
     detail::MaxFlow flow(sink + 1);
     bool from_a = false, from_b = false;
@@ -99,7 +116,7 @@ class BorderSmoother {
       }
     if (from_a && from_b) {
       const std::vector<char> side = flow.cut(source, sink);
-      for (std::size_t i = 0; i < faces.size(); ++i) part_[faces[i]] = side[i] ? a : b;
+      for (std::size_t i = 0; i < faces.size(); ++i) assign(faces[i], side[i] ? a : b);
     }
     for (const Index f : faces) place_[f] = kNone;
   }
@@ -107,8 +124,9 @@ class BorderSmoother {
   const SurfaceSnapshot& surface_;
   const std::vector<double>& costs_;  // per half-edge
   std::vector<Index>& part_;
-  const double width_;
-  std::vector<Index> place_;  // per face: in the present band
+  const double width_, most_;
+  std::map<Parts, std::vector<Index>> borders_;  // half-edges that are, or were, from the first to the second
+  std::vector<Index> place_;                     // per face: in the present band
   std::vector<Vector3> middle_;
 };
 
@@ -160,9 +178,10 @@ std::vector<char> largest_pieces(const Pieces& pieces) {
 }  // namespace
 
 void smooth_borders(const SurfaceSnapshot& surface, const std::vector<double>& costs,
-                    std::vector<Index>& part_of_face, double width) {
+                    std::vector<Index>& part_of_face, double width, double most) {
   if (!(width >= 0 && width <= 10)) throw UsageError("borders: width must be from 0 to 10");
-  if (width > 0) BorderSmoother(surface, costs, part_of_face, width).run();
+  if (!(most >= 0)) throw UsageError("borders: most must not be negative");
+  if (width > 0 && most > 0) BorderSmoother(surface, costs, part_of_face, width, most).run();
 }
 
 void connect_parts(const SurfaceSnapshot& surface, std::vector<Index>& part_of_face) {
@@ -170,6 +189,7 @@ void connect_parts(const SurfaceSnapshot& surface, std::vector<Index>& part_of_f
     moved = false;
     const Pieces pieces = find_pieces(surface, part_of_face);
     const std::vector<char> stays = largest_pieces(pieces);
+    if (std::all_of(stays.begin(), stays.end(), [](char s) { return s != 0; })) return;
     // Only pieces that stay take others in, so that each round settles all that touch one.
     std::vector<std::map<Index, double>> shared(pieces.area.size());
     for (Index h = 0; h < surface.halfedge_count(); ++h) {

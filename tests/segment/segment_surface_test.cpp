@@ -110,6 +110,31 @@ TEST_CASE("four times the faces give the same parts") {
   CHECK(disagreement(parts, segment_surface(b.surface, b.skeleton).part_of_face) < 0.05);
 }
 
+TEST_CASE("parts by the coarse surface of a result and by one made for them agree") {
+  const ExtractResult result = extract_skeleton(test::to_mesh(make_sample("y-tube")));
+  REQUIRE(result.coarse);
+  const Segmentation given = segment_surface(result.surface, result.skeleton, {}, &*result.coarse);
+  const Segmentation made = segment_surface(result.surface, result.skeleton);
+  CHECK(pieces_of(result.surface, given.part_of_face) == given.count);
+  CHECK(given.count == made.count);
+  CoarseSurface other = *result.coarse;
+  other.coarse_vertex.pop_back();
+  CHECK_THROWS_AS(segment_surface(result.surface, result.skeleton, {}, &other), UsageError);
+}
+
+TEST_CASE("creases are looked for where they are asked for") {
+  const SurfaceSnapshot surface = sample("quadruped").surface;
+  const std::vector<double> all = border_costs(surface);
+  CHECK(border_costs(surface, {}, std::vector<char>(surface.face_count(), 1)) == all);
+  const std::vector<double> none = border_costs(surface, {}, std::vector<char>(surface.face_count(), 0));
+  for (Index h = 0; h < surface.halfedge_count(); ++h) {
+    const double length = (surface.position[surface.target(h)] - surface.position[surface.origin[h]]).norm();
+    CHECK(none[h] == Approx(length));
+    CHECK(all[h] <= none[h]);
+  }
+  CHECK_THROWS_AS(border_costs(surface, {}, std::vector<char>(1, 1)), UsageError);
+}
+
 namespace {
 
 // A box of 4 on one of 8.

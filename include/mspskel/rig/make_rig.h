@@ -11,10 +11,11 @@ struct RigOptions {
   // So many joints, as far as the skeleton has nodes for them; 0: what the shape asks for, at most 40 and at
   // least three a limb's end up to 13.
   Index joints = 0;
-  // How far a vertex on either side of a joint follows both bones, in radii at the joint; [0, 10].
+  // How far a vertex on either side of a joint follows both bones, in half widths of the cross-section
+  // there; [0, 10].
   double blend = 1.0;
   // Rounds in which weights are averaged with those of the neighbours on the surface; [0, 1000].
-  Index smoothing = 6;
+  Index smoothing = 3;
 };
 
 // Throws UsageError naming the option.

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "mspskel/mesh/coarsen_surface.h"
 #include "mspskel/mesh/surface_snapshot.h"
 #include "mspskel/segment/border_costs.h"
 #include "mspskel/segment/find_parts.h"
@@ -18,6 +19,7 @@ struct SegmentOptions {
   CreaseOptions creases;
   CreasePartOptions crease_parts;  // most and least follow from parts.count
   double border_width = 0.5;       // how far a border may move, in radii of a circle of its length; [0, 10]
+  CoarseningOptions coarsening;    // of surfaces that come without a coarser one
 };
 
 struct Segmentation {
@@ -31,10 +33,13 @@ struct Segmentation {
 std::vector<NodeContact> node_contacts(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton);
 
 // find_parts on the skeleton, its parts carried to the faces by the surface map, then smooth_borders,
-// connect_parts and split_at_creases. Every part is connected across edges, and parts are numbered from the
-// largest area to the smallest. Throws UsageError for options out of range or a skeleton whose map does not
-// fit the surface. Cost: O(parts * nodes^2) and a maximum flow about each border.
+// connect_parts and split_at_creases. All that runs on a coarser surface, where the input is finer than parts
+// need: `coarse`, which extract_skeleton leaves in its result, or one that is made here. Its parts go to the
+// nearest faces of the input, where borders settle within one coarse edge. Every part is connected across
+// edges, and parts are numbered from the largest area to the smallest. Throws UsageError for options out of
+// range or a skeleton whose map does not fit the surface. Cost: O(faces + parts * nodes^2) and a maximum flow
+// about each border.
 Segmentation segment_surface(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton,
-                             const SegmentOptions& options = {});
+                             const SegmentOptions& options = {}, const CoarseSurface* coarse = nullptr);
 
 }  // namespace mspskel
