@@ -13,6 +13,7 @@
 #include "bindings.h"
 #include "mspskel/base/stopwatch.h"
 #include "mspskel/io/read_mesh.h"
+#include "mspskel/render/render.h"
 #include "mspskel/skeleton/check_skeleton.h"
 #include "options.h"
 #include "page_scene.h"
