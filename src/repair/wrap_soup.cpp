@@ -75,6 +75,7 @@ class Wrapping {
     WrappedSoup wrapped;
     wrapped.small_components = pieces.crumbs;
     wrapped.solids = pieces.solids;
+    wrapped.encloses = encloses_;
     wrapped.soup = std::move(pieces.soup);
     wrapped.cell = grid_.side();
     wrapped.gap = 2 * ball_ * grid_.side();
@@ -180,7 +181,8 @@ class Wrapping {
           walls);
     }
     int chosen = 0;
-    if (enclosed[kScales - 1] > static_cast<double>(walls))
+    encloses_ = enclosed[kScales - 1] > static_cast<double>(walls);
+    if (encloses_)
       while (enclosed[chosen] < enclosed[kScales - 1] / 2) ++chosen;
     if (chosen == 0) return;  // the last flood's
     ball_ = largest_ball_ / (1 << (kScales - 1 - chosen));
@@ -263,6 +265,7 @@ class Wrapping {
   FaceSet faces_;
   DenseGrid grid_;
   double largest_ball_ = 0, ball_ = 0;  // radius, in cells
+  bool encloses_ = true;
   Distances walls_, reach_;
 };
 

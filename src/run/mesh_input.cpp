@@ -161,8 +161,11 @@ MeshInput prepare_mesh(const PolygonSoup& soup, const RepairSettings& settings, 
       input = mend(soup, settings);
     }
   }
-  if (settings.wrap_mode == WrapMode::kAuto && is_guesswork(input.repair.counts))
-    input = wrap(soup, settings, execution);
+  if (settings.wrap_mode == WrapMode::kAuto && is_guesswork(input.repair.counts)) {
+    // A bowl is open on purpose: nothing but its wall would be enclosed.
+    MeshInput wrapped = wrap(soup, settings, execution);
+    if (wrapped.wrapped->encloses) input = std::move(wrapped);
+  }
   if (settings.unite && !input.wrapped) unite(input, execution);
   input.built.warnings.insert(input.built.warnings.begin(), soup.warnings.begin(), soup.warnings.end());
   if (!settings.write_mesh.empty()) write_mesh(settings.write_mesh, input.built.mesh);

@@ -119,6 +119,26 @@ class Repair(ProgramTest):
         self.succeed("check", "w.off", "a.skel", "-q")
         self.assertIn("--wrap", self.fail_with(USAGE, "loose.off", "b.skel", "--wrap", "0.5"))
 
+    def test_a_bowl_is_closed_though_its_lid_is_large(self):
+        rings, around = 12, 24
+        points = [(0, 0, -1)]
+        for i in range(1, rings + 1):
+            tilt = math.pi / 2 * i / rings
+            points += [(math.sin(tilt) * math.cos(2 * math.pi * j / around), math.sin(tilt) * math.sin(2 * math.pi * j / around),
+                        -math.cos(tilt)) for j in range(around)]
+        ring = lambda i, j: 1 + (i - 1) * around + j % around
+        faces = [(0, ring(1, j + 1), ring(1, j)) for j in range(around)]
+        for i in range(1, rings):
+            for j in range(around):
+                faces += [(ring(i, j), ring(i, j + 1), ring(i + 1, j + 1)), (ring(i, j), ring(i + 1, j + 1), ring(i + 1, j))]
+        write_off(self.folder / "bowl.off", points, faces)
+        result = self.run_program("bowl.off", "a.skel", "--report", "r.json")
+        self.assertEqual(result.returncode, DONE, result.stderr)
+        repair = json.loads((self.folder / "r.json").read_text())["repair"]
+        self.assertGreater(repair["hole_share"], 0.25)
+        self.assertFalse(repair["wrapped"])
+        self.assertEqual(repair["holes"], 1)
+
     def two_crossing_capsules(self):
         points, faces = read_off(self.folder / self.sample("capsule", 400))
         size = max(abs(c) for p in points for c in p)

@@ -16,7 +16,7 @@ namespace {
 // Four points as floats, twelve indices as shorts.
 std::string buffer() {
   Bytes bytes(false);
-  for (const float x : {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}) bytes.add(x);
+  for (const float x : {0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F}) bytes.add(x);
   for (const int v : {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3}) bytes.add(static_cast<std::uint16_t>(v));
   return bytes.text;
 }

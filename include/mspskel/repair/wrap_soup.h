@@ -21,6 +21,9 @@ struct WrappedSoup {
   PolygonSoup soup;                    // closed, manifold triangles, model units
   std::vector<Index> vertex_of_point;  // the vertex nearest to each point; kNone for points of no face
   double gap = 0.0, cell = 0.0;        // model units
+  // Whether more is enclosed than the walls take at the largest scale that the soup was asked for; where it
+  // is not, the soup has told no scale, and its faces were given a thickness.
+  bool encloses = true;
   Index solids = 0, small_components = 0;
 };
 
@@ -29,8 +32,7 @@ struct WrappedSoup {
 // are inside. Faces that enclose nothing get a thickness of less than two cells of the grid; all else grows
 // outward by less than one. Crumbs below 0.025 of the largest piece's extent are left out.
 //   On a grid of at most 16 million nodes: distances from the faces, a flood from outside where the ball
-//   fits,
-// distances from what it reached, and the surface where they equal its radius, cut in tetrahedra.
+// fits, distances from what it reached, and the surface where they equal its radius, cut in tetrahedra.
 // Faces with corners that are not finite, or not there, are left out. Throws MeshError if no face has an
 // extent, Cancelled. Cost: O(nodes + faces + surface / cell²); 40 bytes a node.
 WrappedSoup wrap_soup(const PolygonSoup& soup, const WrapOptions& options = {},
