@@ -18,6 +18,7 @@ class OptionKeywords(TypedDict, total=False):
     components: Union[float, str]
     weld: float
     open: str
+    wrap: Union[float, str]
     shells: str
     coarsen: bool
     coarse_vertices: float

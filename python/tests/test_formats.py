@@ -58,7 +58,7 @@ def test_trimesh_reads_ply(ring, tmp_path):
     node_at = {tuple(point): node for node, point in enumerate(ring.vertices)}
     ways = [[node_at[tuple(path.vertices[i])] for i in entity.points] for entity in path.entities]
     assert {tuple(sorted(edge)) for way in ways for edge in zip(way, way[1:])} == {tuple(sorted(edge)) for edge in ring.edges.tolist()}
-    assert np.array_equal(path.metadata["_ply_raw"]["vertex"]["data"]["radius"], ring.radius)
+    assert np.array_equal(path.metadata["_ply_raw"]["vertex"]["data"]["radius"].ravel(), ring.radius)
 
 
 def test_what_cannot_be_written(ring, tmp_path):

@@ -47,7 +47,7 @@ TEST_CASE("a file that cannot be read is named with the reason") {
   refused(folder.path("none.off"), "No such file");
   refused(folder.path(""), "directory");
   refused(folder.write("empty.off", ""), "empty");
-  refused(folder.write("what.txt", "hello world"), "OFF, OBJ, PLY or STL");
+  refused(folder.write("what.txt", "hello world"), "OFF, OBJ, PLY, STL, VTK, VTP, glTF or 3MF");
   refused(folder.write("bad.off", "OFF\n1 0 0\n0 0 x\n"), "line 3");
   refused(folder.write("wide.obj", std::string("\xFF\xFEv\0 \0", 6)), "UTF-16");
   refused(folder.write("misnamed.obj", kOff + "v\n"), "looks like OFF");
