@@ -7,6 +7,8 @@ foreach(test ${cli_tests})
   add_test(NAME "cli: ${name}" COMMAND Python3::Interpreter -B ${test})
   set_tests_properties("cli: ${name}" PROPERTIES ENVIRONMENT MSPSKEL_PROGRAM=$<TARGET_FILE:mspskel_cli>)
 endforeach()
+# The longest of all start first, so that nothing waits for them alone.
+set_tests_properties("cli: ranges" PROPERTIES COST 100)
 
 add_test(NAME "cli: files in the programs that read them"
   COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_SOURCE_DIR}/cli/readers.py $<TARGET_FILE:mspskel_cli> ${PROJECT_SOURCE_DIR}

@@ -96,9 +96,14 @@ class Extract(ProgramTest):
 
     def test_failed_skeleton_is_not_written(self):
         mesh = self.sample("csaszar-torus", 0)
-        message = self.fail_with(NO_SKELETON, mesh, "a.skel", "--report", "r.json", "--stages", "s", *self.LITERAL)
+        message = self.fail_with(NO_SKELETON, mesh, "a.skel", "--stages", "s", *self.LITERAL)
         self.assertIn("b1 is 0, not 1", message)
         self.assertIn("--keep-failed", message)
+        result = self.run_program(mesh, "a.skel", "--report", "r.json", "--stages", "s", *self.LITERAL)
+        self.assertEqual(result.returncode, NO_SKELETON)
+        self.assertEqual(self.files(), ["csaszar-torus.off", "r.json"])
+        report = json.loads((self.folder / "r.json").read_text())
+        self.assertIn("b1 is 0, not 1", report["error"]["message"])
         self.fail_with(NO_SKELETON, mesh, "-", *self.LITERAL)
 
     def test_keep_failed_writes_and_still_fails(self):

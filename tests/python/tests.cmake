@@ -2,7 +2,7 @@
 if(MSPSKEL_BUILD_PYTHON)
   add_test(NAME "python: pytest" COMMAND ${MSPSKEL_PYTHON_EXECUTABLE} -m pytest -q -p no:cacheprovider ${PROJECT_SOURCE_DIR}/python/tests
     WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
-  set_tests_properties("python: pytest" PROPERTIES TIMEOUT 900 ENVIRONMENT
+  set_tests_properties("python: pytest" PROPERTIES TIMEOUT 900 COST 90 ENVIRONMENT
     "PYTHONPATH=${PROJECT_BINARY_DIR}/python;PYTHONDONTWRITEBYTECODE=1;MSPSKEL_PROGRAM=$<$<TARGET_EXISTS:mspskel_cli>:$<TARGET_FILE:mspskel_cli>>")
 else()
   add_test(NAME "python: pytest"
