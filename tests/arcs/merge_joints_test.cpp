@@ -11,16 +11,6 @@
 using namespace mspskel;
 using namespace mspskel::test;
 
-namespace {
-
-Index joint_count(const ArcGraph& graph) {
-  Index joints = 0;
-  for (const auto& arcs : graph.incidence()) joints += arcs.size() >= 3;
-  return joints;
-}
-
-}  // namespace
-
 TEST_CASE("Joints within one another's ball become one, those further apart and loops stay") {
   const Solid solid(tube(1, 20, 24, 40));
   ArcGraph graph;

@@ -11,16 +11,6 @@
 using namespace mspskel;
 using namespace mspskel::test;
 
-namespace {
-
-Index joint_count(const ArcGraph& graph) {
-  Index joints = 0;
-  for (const auto& arcs : graph.incidence()) joints += arcs.size() >= 3;
-  return joints;
-}
-
-}  // namespace
-
 TEST_CASE("Two arcs side by side in a tube become one") {
   const Solid solid(tube(1, 12, 24, 24));
   ArcGraph graph;

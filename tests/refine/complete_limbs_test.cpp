@@ -160,7 +160,7 @@ TEST_CASE("No place is completed twice") {
 }
 
 TEST_CASE("Fins on a plain body get an arc each, to their middle") {
-  for (const std::vector<double> angles : {std::vector<double>{0.7}, {0.0, 2.0, 4.0}}) {
+  for (const std::vector<double>& angles : {std::vector<double>{0.7}, {0.0, 2.0, 4.0}}) {
     const Solid solid(to_mesh(polygonise(finned(angles), 5000, 0.12)));
     ArcGraph graph = straight_axis(solid, 3);
     std::vector<LimbTip> tips;

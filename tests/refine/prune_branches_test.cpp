@@ -15,22 +15,6 @@
 using namespace mspskel;
 using namespace mspskel::test;
 
-namespace {
-
-Index spur_count(const ArcGraph& graph, const BoundingVolumeHierarchy& solid) {
-  const auto at = graph.incidence();
-  Index spurs = 0;
-  for (const Arc& arc : graph.arcs)
-    for (const int end : {0, 1}) {
-      if (!arc.alive || at[arc.hub[end]].size() != 1 || at[arc.hub[1 - end]].size() < 3) continue;
-      const Vector3& joint = graph.hub_position[arc.hub[1 - end]];
-      spurs += (graph.hub_position[arc.hub[end]] - joint).norm() < solid.distance(joint);
-    }
-  return spurs;
-}
-
-}  // namespace
-
 TEST_CASE("Pruning takes a hair and leaves the limbs") {
   const Solid solid(to_mesh(skin_graph(tripod(), 1200)));
   const Vector3 hair(0, 0.3, 0);

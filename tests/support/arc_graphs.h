@@ -156,4 +156,23 @@ inline Index line(ArcGraph& graph, Index from, Index to, Index count = 40) {
   return add_arc(graph, from, to, straight(graph.hub_position[from], graph.hub_position[to], count));
 }
 
+inline Index joint_count(const ArcGraph& graph) {
+  Index joints = 0;
+  for (const auto& arcs : graph.incidence()) joints += arcs.size() >= 3;
+  return joints;
+}
+
+// Leaf arcs that end in the ball of their joint.
+inline Index spur_count(const ArcGraph& graph, const BoundingVolumeHierarchy& solid) {
+  const auto at = graph.incidence();
+  Index spurs = 0;
+  for (const Arc& arc : graph.arcs)
+    for (const int end : {0, 1}) {
+      if (!arc.alive || at[arc.hub[end]].size() != 1 || at[arc.hub[1 - end]].size() < 3) continue;
+      const Vector3& joint = graph.hub_position[arc.hub[1 - end]];
+      spurs += (graph.hub_position[arc.hub[end]] - joint).norm() < solid.distance(joint);
+    }
+  return spurs;
+}
+
 }  // namespace mspskel::test
