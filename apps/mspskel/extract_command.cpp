@@ -232,17 +232,15 @@ Extraction extract_or_report(const ExtractSettings& settings, const Cancellation
   }
 }
 
-// Of a skeleton that fails its checks and that nobody wants to keep.
-[[noreturn]] void refuse(const ExtractSettings& settings, const Extraction& extraction,
-                         const Stopwatch& total, ProgramSeconds& seconds, Terminal& terminal) {
-  const NoSkeletonError error(extraction.made.failure + " (--keep-failed writes it all the same)");
+// Of what was extracted, where a report is wanted; a failure stands in it as an error.
+void report_extraction(const ExtractSettings& settings, const Extraction& extraction,
+                       const std::string& failure, ProgramSeconds& seconds, const Stopwatch& total,
+                       Terminal& terminal) {
   seconds.total = total.seconds();
-  if (extraction.reported) {
-    Json report = with_costs(extraction.facts, settings.values, extraction.made.result, seconds);
-    report["error"] = error_json(error);
-    write_report(settings, report, terminal);
-  }
-  throw error;
+  if (!extraction.reported) return;
+  Json report = with_costs(extraction.facts, settings.values, extraction.made.result, seconds);
+  if (!failure.empty()) report["error"] = error_json(NoSkeletonError(failure));
+  write_report(settings, report, terminal);
 }
 
 void write_files(const ExtractSettings& settings, const Extraction& extraction, const Stopwatch& total,
@@ -269,11 +267,7 @@ void write_files(const ExtractSettings& settings, const Extraction& extraction, 
   if (!settings.bent.empty()) write_bent(settings, extraction);
   if (!settings.stages.empty()) write_stage_files(settings.stages, made.result);
   seconds.write = writing.seconds();
-  seconds.total = total.seconds();
-  if (!extraction.reported) return;
-  Json report = with_costs(extraction.facts, settings.values, made.result, seconds);
-  if (!made.failure.empty()) report["error"] = error_json(NoSkeletonError(made.failure));
-  write_report(settings, report, terminal);
+  report_extraction(settings, extraction, made.failure, seconds, total, terminal);
 }
 
 void extract(const ExtractSettings& given, const Cancellation& cancellation, Terminal& terminal) {
@@ -290,7 +284,11 @@ void extract(const ExtractSettings& given, const Cancellation& cancellation, Ter
   cancellation.throw_if_requested();
   const std::string& failure = extraction.made.failure;
   show_warnings(extraction.made.result, terminal);
-  if (!failure.empty() && !settings.keep_failed) refuse(settings, extraction, total, seconds, terminal);
+  if (!failure.empty() && !settings.keep_failed) {
+    const NoSkeletonError refused(failure + " (--keep-failed writes it all the same)");
+    report_extraction(settings, extraction, refused.what(), seconds, total, terminal);
+    throw refused;
+  }
   write_files(settings, extraction, total, seconds, terminal);
   if (!failure.empty()) throw NoSkeletonError(failure);
 }
