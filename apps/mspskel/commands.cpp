@@ -15,4 +15,11 @@ const std::vector<CommandEntry>& commands() {
   return all;
 }
 
+std::vector<std::string> command_names() {
+  std::vector<std::string> names;
+  for (const CommandEntry& entry : commands())
+    if (!entry.name.empty()) names.push_back(entry.name);
+  return names;
+}
+
 }  // namespace mspskel::cli

@@ -38,6 +38,7 @@ struct CommandEntry {
 
 // The nameless one first.
 const std::vector<CommandEntry>& commands();
+std::vector<std::string> command_names();
 
 std::unique_ptr<Command> make_extract_command(const std::vector<std::string>& words);
 std::unique_ptr<Command> make_sample_command(const std::vector<std::string>& words);

@@ -61,12 +61,7 @@ std::vector<std::string> all_spellings(const std::vector<OptionEntry>& options) 
   return all;
 }
 
-std::string command_names(const std::string& between = " ") {
-  std::vector<std::string> names;
-  for (const CommandEntry& entry : commands())
-    if (!entry.name.empty()) names.push_back(entry.name);
-  return join(names, between);
-}
+std::string joined_command_names(const std::string& between = " ") { return join(command_names(), between); }
 
 // In single quotes, for all three shells.
 std::string quoted(const std::string& text) {
@@ -156,7 +151,7 @@ _mspskel() {
   local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]}
   local command='' options='' kind='' words=''
   case ${COMP_WORDS[1]} in
-    )" + command_names("|") +
+    )" + joined_command_names("|") +
          R"() ((COMP_CWORD > 1)) && command=${COMP_WORDS[1]} ;;
   esac
   # --option=value comes as three words.
@@ -176,7 +171,7 @@ _mspskel() {
          R"(        *) kind=file ;;
       esac
       ((COMP_CWORD == 1)) && words=')" +
-         command_names() + R"('
+         joined_command_names() + R"('
       [[ $cur == -* ]] && kind=words words=$options
       ;;
   esac
@@ -210,7 +205,7 @@ std::string zsh_completion() {
 
 std::string fish_completion() {
   std::string text = "# fish completion for mspskel: mspskel completion fish\n";
-  const std::string names = command_names();
+  const std::string names = joined_command_names();
   for (const Completed& one : completed_commands()) {
     const std::string& name = one.entry->name;
     const std::string condition = quoted(name.empty() ? "not __fish_seen_subcommand_from " + names

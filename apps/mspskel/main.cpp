@@ -24,13 +24,6 @@
 namespace mspskel::cli {
 namespace {
 
-std::vector<std::string> command_names() {
-  std::vector<std::string> names;
-  for (const CommandEntry& command : commands())
-    if (!command.name.empty()) names.push_back(command.name);
-  return names;
-}
-
 // A first word that names no command is a mesh; one that names no file either may be a mistyped command.
 void refuse_mistyped_command(const std::string& word) {
   std::error_code ignored;

@@ -16,8 +16,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kAbsent = std::numeric_limits<std::size_t>::max();
-
 std::size_t bytes_of_component(int type) {
   switch (type) {
     case 5120:

@@ -1,6 +1,7 @@
 // The numbers of a glTF file: buffers, views of them, accessors into those.
 #pragma once
 
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -13,6 +14,9 @@ namespace mspskel::detail {
 
 // The member, or an empty value of its kind.
 const nlohmann::json& member(const nlohmann::json& object, const char* name);
+// A number that no list has: what size_member gives for a reference that is not there.
+constexpr std::size_t kAbsent = std::numeric_limits<std::size_t>::max();
+
 // A count or an index; `otherwise` where there is none. Throws ReadError for anything else.
 std::size_t size_member(const nlohmann::json& object, const char* name, std::size_t otherwise);
 // The element of that number of one of the document's lists. Throws ReadError.

@@ -18,8 +18,6 @@ namespace {
 using nlohmann::json;
 using Transform = Eigen::Affine3d;
 
-constexpr std::size_t kAbsent = static_cast<std::size_t>(-1);
-
 // The JSON text and the binary chunk.
 struct Chunks {
   std::string_view text, binary;

@@ -208,28 +208,28 @@ CurveSkeleton parse_polylines(std::string_view bytes) {
   return skeleton;
 }
 
-using Json = nlohmann::json;
+using nlohmann::json;
 
-double number_of(const Json& value, const char* what) {
+double number_of(const json& value, const char* what) {
   if (!value.is_number() || !std::isfinite(value.get<double>()))
     throw ReadError(std::string(what) + " is not a finite number");
   return value.get<double>();
 }
-std::int64_t integer_of(const Json& value, const char* what) {
+std::int64_t integer_of(const json& value, const char* what) {
   if (!value.is_number_integer()) throw ReadError(std::string(what) + " is not an integer");
   return value.get<std::int64_t>();
 }
-const Json& array_of(const Json& document, const char* name) {
+const json& array_of(const json& document, const char* name) {
   const auto found = document.find(name);
   if (found == document.end() || !found->is_array())
     throw ReadError(std::string("there is no array \"") + name + "\"");
   return *found;
 }
 
-SkeletonNode node_of(const Json& value) {
+SkeletonNode node_of(const json& value) {
   if (!value.is_object()) throw ReadError("a node is not an object");
   SkeletonNode node;
-  const Json& position = array_of(value, "position");
+  const json& position = array_of(value, "position");
   if (position.size() != 3) throw ReadError("a node's position has not three coordinates");
   for (int k = 0; k < 3; ++k)
     node.position[k] = number_of(position[static_cast<std::size_t>(k)], "a coordinate");
@@ -245,17 +245,17 @@ SkeletonNode node_of(const Json& value) {
 }
 
 CurveSkeleton parse_json(std::string_view bytes) {
-  Json document;
+  json document;
   try {
-    document = Json::parse(bytes);
-  } catch (const Json::exception& error) {
+    document = json::parse(bytes);
+  } catch (const json::exception& error) {
     throw ReadError(error.what());  // it names line and column
   }
   if (!document.is_object()) throw ReadError("the document is not an object");
   CurveSkeleton skeleton;
-  for (const Json& node : array_of(document, "nodes")) skeleton.nodes.push_back(node_of(node));
+  for (const json& node : array_of(document, "nodes")) skeleton.nodes.push_back(node_of(node));
   const auto count = static_cast<std::int64_t>(skeleton.nodes.size());
-  for (const Json& edge : array_of(document, "edges")) {
+  for (const json& edge : array_of(document, "edges")) {
     if (!edge.is_object() || !edge.contains("source") || !edge.contains("target"))
       throw ReadError("an edge has no source and target");
     add_edge(skeleton, integer_of(edge["source"], "an edge's source"),
@@ -263,7 +263,7 @@ CurveSkeleton parse_json(std::string_view bytes) {
              [](const std::string& message) { throw ReadError(message); });
   }
   if (document.contains("node_of_vertex")) {
-    for (const Json& value : array_of(document, "node_of_vertex")) {
+    for (const json& value : array_of(document, "node_of_vertex")) {
       const std::int64_t node = integer_of(value, "an entry of node_of_vertex");
       if (node < kNone || node >= count) throw ReadError("node_of_vertex names node " + std::to_string(node));
       skeleton.node_of_vertex.push_back(static_cast<Index>(node));

@@ -13,7 +13,7 @@
 namespace mspskel {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 // glTF's numbers for types, buffer targets and ways to draw.
 enum Component { kUnsignedShort = 5123, kUnsignedInt = 5125, kFloat = 5126 };
@@ -26,14 +26,15 @@ class GlbFile {
   GlbFile() {
     json_["asset"] = {{"version", "2.0"}, {"generator", "mspskel"}};
     json_["scene"] = 0;
-    json_["scenes"] = {{{"nodes", Json::array()}}};
+    json_["scenes"] = {{{"nodes", OrderedJson::array()}}};
   }
-  Json& json() { return json_; }
+  OrderedJson& json() { return json_; }
 
   template <class T>
   std::size_t add_accessor(const std::vector<T>& values, const char* type, std::size_t width,
                            Component component, Target target) {
-    Json view{{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", values.size() * sizeof(T)}};
+    OrderedJson view{
+        {"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", values.size() * sizeof(T)}};
     if (target != kNoTarget) view["target"] = static_cast<int>(target);
     json_["bufferViews"].push_back(std::move(view));
     for (const T value : values) append_little_endian(value);
@@ -59,11 +60,11 @@ class GlbFile {
   std::size_t add_indices(const std::vector<std::uint32_t>& values) {
     return add_accessor(values, "SCALAR", 1, kUnsignedInt, kIndices);
   }
-  std::size_t add(const char* list, Json entry) {
+  std::size_t add(const char* list, OrderedJson entry) {
     json_[list].push_back(std::move(entry));
     return json_[list].size() - 1;
   }
-  std::size_t add_root_node(Json entry) {
+  std::size_t add_root_node(OrderedJson entry) {
     const std::size_t node = add("nodes", std::move(entry));
     json_["scenes"][0]["nodes"].push_back(node);
     return node;
@@ -71,7 +72,7 @@ class GlbFile {
 
   std::string bytes() {
     json_["buffers"] = {{{"byteLength", binary_.size()}}};
-    std::string text = json_.dump(-1, ' ', false, Json::error_handler_t::replace);
+    std::string text = json_.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
     while (text.size() % 4 != 0) text += ' ';
     std::string out = "glTF";
     const auto number = [&out](std::size_t value) {
@@ -97,7 +98,7 @@ class GlbFile {
     for (std::size_t i = 0; i < sizeof(T); ++i) binary_ += static_cast<char>(bits >> (8 * i) & 255);
   }
 
-  Json json_;
+  OrderedJson json_;
   std::string binary_;
 };
 
@@ -144,11 +145,11 @@ std::vector<float> normals(const PolygonSoup& surface) {
   return floats(unit, "normal");
 }
 
-Json surface_primitive(GlbFile& file, const PolygonSoup& surface, double opacity) {
-  Json material{{"pbrMetallicRoughness",
-                 {{"baseColorFactor", {0.69, 0.745, 0.82, opacity}},
-                  {"metallicFactor", 0.0},
-                  {"roughnessFactor", 0.7}}}};
+OrderedJson surface_primitive(GlbFile& file, const PolygonSoup& surface, double opacity) {
+  OrderedJson material{{"pbrMetallicRoughness",
+                        {{"baseColorFactor", {0.69, 0.745, 0.82, opacity}},
+                         {"metallicFactor", 0.0},
+                         {"roughnessFactor", 0.7}}}};
   if (opacity < 1) material["alphaMode"] = "BLEND";
   const std::size_t position = file.add_positions(floats(surface.points, "vertex"));
   const std::size_t normal = file.add_accessor(normals(surface), "VEC3", 3, kFloat, kVertices);
@@ -187,7 +188,7 @@ void add_skeleton(GlbFile& file, const CurveSkeleton& skeleton) {
 }
 
 // Weights as 32-bit floats that sum to 1 to the last bit but one: the strongest takes what rounding leaves.
-void add_influences(GlbFile& file, const Rig& rig, Json& primitive) {
+void add_influences(GlbFile& file, const Rig& rig, OrderedJson& primitive) {
   std::vector<std::uint16_t> joints;
   std::vector<float> weights;
   for (const auto& influences : rig.influences) {
@@ -209,13 +210,13 @@ void add_joints(GlbFile& file, const Rig& rig, const std::vector<JointTurn>& tur
   for (const JointTurn& turn : turns)
     own[turn.joint] = Eigen::Quaterniond(Eigen::AngleAxisd(turn.angle * kPi / 180, turn.axis.normalized())) *
                       own[turn.joint];
-  std::vector<Json> children(rig.joints.size(), Json::array());
+  std::vector<OrderedJson> children(rig.joints.size(), OrderedJson::array());
   for (std::size_t j = 1; j < rig.joints.size(); ++j) children[rig.joints[j].parent].push_back(first + j);
   for (std::size_t j = 0; j < rig.joints.size(); ++j) {
     const RigJoint& joint = rig.joints[j];
     Vector3 moved = joint.position;
     if (joint.parent != kNone) moved -= rig.joints[joint.parent].position;
-    Json node{{"name", joint.name}, {"translation", {moved.x(), moved.y(), moved.z()}}};
+    OrderedJson node{{"name", joint.name}, {"translation", {moved.x(), moved.y(), moved.z()}}};
     if (!own[j].isApprox(Eigen::Quaterniond::Identity()))
       node["rotation"] = {own[j].x(), own[j].y(), own[j].z(), own[j].w()};
     if (!children[j].empty()) node["children"] = children[j];
@@ -228,7 +229,7 @@ void add_joints(GlbFile& file, const Rig& rig, const std::vector<JointTurn>& tur
 
 void add_skin(GlbFile& file, const Rig& rig, std::size_t first) {
   std::vector<float> inverse_bind;
-  Json joints = Json::array();
+  OrderedJson joints = OrderedJson::array();
   for (std::size_t j = 0; j < rig.joints.size(); ++j) {
     const Vector3& p = rig.joints[j].position;
     for (int column = 0; column < 3; ++column)
@@ -252,9 +253,9 @@ bool ends_with(const std::string& path, const std::string& end) {
 std::string format_glb(const GlbScene& scene) {
   check(scene);
   GlbFile file;
-  Json primitive = surface_primitive(file, scene.surface, scene.skeleton.edges.empty() ? 1.0 : 0.4);
+  OrderedJson primitive = surface_primitive(file, scene.surface, scene.skeleton.edges.empty() ? 1.0 : 0.4);
   const std::size_t mesh =
-      file.add("meshes", {{"name", scene.name}, {"primitives", Json::array({primitive})}});
+      file.add("meshes", {{"name", scene.name}, {"primitives", OrderedJson::array({primitive})}});
   file.add_root_node({{"name", scene.name}, {"mesh", mesh}});
   add_skeleton(file, scene.skeleton);
   return file.bytes();
@@ -269,10 +270,10 @@ std::string format_rigged_glb(const GlbScene& scene, const Rig& rig, const std::
     throw UsageError("a .glb holds a rig of 1 to 65535 joints, not of " + std::to_string(rig.joints.size()));
   pose_joints(rig, turns);  // refuses turns of no joint
   GlbFile file;
-  Json primitive = surface_primitive(file, scene.surface, 1.0);
+  OrderedJson primitive = surface_primitive(file, scene.surface, 1.0);
   add_influences(file, rig, primitive);
   const std::size_t mesh =
-      file.add("meshes", {{"name", scene.name}, {"primitives", Json::array({primitive})}});
+      file.add("meshes", {{"name", scene.name}, {"primitives", OrderedJson::array({primitive})}});
   const std::size_t node = file.add_root_node({{"name", scene.name}, {"mesh", mesh}, {"skin", 0}});
   add_joints(file, rig, turns, node + 1);
   add_skin(file, rig, node + 1);

@@ -13,6 +13,8 @@
 namespace mspskel {
 namespace {
 
+using OrderedJson = nlohmann::ordered_json;
+
 using detail::append;
 using detail::append_all;
 
@@ -62,8 +64,7 @@ std::string format_ply(const CurveSkeleton& skeleton) {
 }
 
 std::string format_json(const CurveSkeleton& skeleton, const std::string& report) {
-  using Json = nlohmann::ordered_json;
-  Json nodes = Json::array(), edges = Json::array(), arcs = Json::array();
+  OrderedJson nodes = OrderedJson::array(), edges = OrderedJson::array(), arcs = OrderedJson::array();
   for (std::size_t v = 0; v < skeleton.nodes.size(); ++v) {
     const SkeletonNode& node = skeleton.nodes[v];
     nodes.push_back({{"id", v},
@@ -75,17 +76,17 @@ std::string format_json(const CurveSkeleton& skeleton, const std::string& report
   }
   for (const auto& [a, b] : skeleton.edges) edges.push_back({{"source", a}, {"target", b}});
   for (const Branch& branch : branches(skeleton)) arcs.push_back(branch.nodes);
-  Json document{{"directed", false}, {"multigraph", false}, {"graph", {{"name", "curve skeleton"}}}};
+  OrderedJson document{{"directed", false}, {"multigraph", false}, {"graph", {{"name", "curve skeleton"}}}};
   document["nodes"] = std::move(nodes);
   document["edges"] = std::move(edges);
   document["branches"] = std::move(arcs);
   document["node_of_vertex"] = skeleton.node_of_vertex;
   if (!report.empty()) {
-    Json parsed = Json::parse(report, nullptr, false);
+    OrderedJson parsed = OrderedJson::parse(report, nullptr, false);
     if (parsed.is_discarded()) throw UsageError("the report for a JSON skeleton is not JSON");
     document["report"] = std::move(parsed);
   }
-  return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return document.dump(1, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 
 // Types: 1 soma, 5 fork, 6 end, 0 else.

@@ -36,14 +36,14 @@ class Seams {
     for (Index h = 0; h < surface.halfedge_count(); ++h) {
       const Index v = surface.origin[h], w = surface.target(h);
       if (node_of_vertex_[v] == node_of_vertex_[w]) continue;
-      const double jump = way(node_of_vertex_[v], node_of_vertex_[w]) - edge_length(h);
+      const double jump = way(node_of_vertex_[v], node_of_vertex_[w]) - surface_.edge_length(h);
       const double most = kMostReach * skeleton.nodes[node_of_vertex_[v]].radius / surface.frame.scale;
       reach_[v] = std::max(reach_[v], std::min(kReach * jump, most));
     }
     spread();
     for (Index v = 0; v < surface.vertex_count(); ++v)
       for_each_outgoing(v, [&](Index h) {
-        if (reach_[v] > edge_length(h)) add(v);
+        if (reach_[v] > surface_.edge_length(h)) add(v);
       });
   }
 
@@ -65,7 +65,7 @@ class Seams {
       add_to(i, weights[v], 1);
       for_each_outgoing(v, [&](Index h) {
         const Index w = surface_.target(h);
-        const double ratio = std::min(reach_[v], reach_[w]) / std::max(edge_length(h), 1e-12);
+        const double ratio = std::min(reach_[v], reach_[w]) / std::max(surface_.edge_length(h), 1e-12);
         const double flow = ratio * ratio;
         own += flow;
         if (place_[w] != kNone)
@@ -89,9 +89,6 @@ class Seams {
   }
 
  private:
-  double edge_length(Index h) const {
-    return (surface_.position[surface_.target(h)] - surface_.position[surface_.origin[h]]).norm();
-  }
   template <class Visit>
   void for_each_outgoing(Index v, Visit visit) const {
     const Index first = surface_.vertex_halfedge[v];
@@ -123,7 +120,7 @@ class Seams {
       if (reach < reach_[v]) continue;
       for_each_outgoing(v, [&, here = reach](Index h) {
         const Index w = surface_.target(h);
-        const double there = here - edge_length(h);
+        const double there = here - surface_.edge_length(h);
         if (there <= reach_[w]) return;
         reach_[w] = there;
         queue.push({there, w});

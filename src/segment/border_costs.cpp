@@ -20,10 +20,6 @@ constexpr double kNormalError = 1e-3;
 // counts, but not what the narrow ends of long faces on a round wall turn by.
 constexpr double kLeastWindow = 0.8;
 
-double edge_length(const SurfaceSnapshot& s, Index h) {
-  return (s.position[s.target(h)] - s.position[s.origin[h]]).norm();
-}
-
 // Some faces of a surface, or all, by their places in a list.
 struct Faces {
   Faces(const SurfaceSnapshot& surface, const std::vector<char>& chosen)
@@ -67,7 +63,7 @@ std::vector<Vector3> diffused_normals(const SurfaceSnapshot& surface, const Face
       const Index k = faces.place[surface.twin[h] / 3];
       if (k == kNone) continue;
       const double apart = std::max((faces.middle[i] - faces.middle[k]).norm(), 1e-3 * std::sqrt(faces.mean));
-      const double flow = reach * reach * edge_length(surface, h) / apart;
+      const double flow = reach * reach * surface.edge_length(h) / apart;
       own += flow;
       system.coeffRef(k, i) -= flow;
     }
@@ -134,7 +130,7 @@ std::vector<double> border_costs(const SurfaceSnapshot& surface, const CreaseOpt
     const double angle = a == kNone || b == kNone ? 0.0
                                                   : crease_angle(normals[a], normals[b],
                                                                  faces.middle[b] - faces.middle[a], window);
-    costs[h] = edge_length(surface, h) / (1 + options.crease * angle);
+    costs[h] = surface.edge_length(h) / (1 + options.crease * angle);
   }
   return costs;
 }

@@ -141,8 +141,7 @@ class Segmenter {
 
 double mean_edge_length(const SurfaceSnapshot& surface) {
   double sum = 0;
-  for (Index h = 0; h < surface.halfedge_count(); ++h)
-    sum += (surface.position[surface.target(h)] - surface.position[surface.origin[h]]).norm();
+  for (Index h = 0; h < surface.halfedge_count(); ++h) sum += surface.edge_length(h);
   return sum / surface.halfedge_count();
 }
 

@@ -13,10 +13,6 @@
 namespace mspskel {
 namespace {
 
-double edge_length(const SurfaceSnapshot& s, Index h) {
-  return (s.position[s.target(h)] - s.position[s.origin[h]]).norm();
-}
-
 class BorderSmoother {
  public:
   BorderSmoother(const SurfaceSnapshot& surface, const std::vector<double>& costs,
@@ -96,7 +92,7 @@ class BorderSmoother {
 
   void smooth(Index a, Index b, const std::vector<Index>& border) {
     double length = 0;
-    for (const Index h : border) length += edge_length(surface_, h);
+    for (const Index h : border) length += surface_.edge_length(h);
     const std::vector<Index> faces = band(a, b, border, std::min(most_, width_ * length / (2 * kPi)));
     const Index source = static_cast<Index>(faces.size()), sink = source + 1;
     detail::MaxFlow flow(sink + 1);
@@ -194,7 +190,7 @@ void connect_parts(const SurfaceSnapshot& surface, std::vector<Index>& part_of_f
     std::vector<std::map<Index, double>> shared(pieces.area.size());
     for (Index h = 0; h < surface.halfedge_count(); ++h) {
       const Index i = pieces.of_face[h / 3], j = pieces.of_face[surface.twin[h] / 3];
-      if (i != j && !stays[i] && stays[j]) shared[i][pieces.part[j]] += edge_length(surface, h);
+      if (i != j && !stays[i] && stays[j]) shared[i][pieces.part[j]] += surface.edge_length(h);
     }
     std::vector<Index> part = pieces.part;
     for (std::size_t i = 0; i < shared.size(); ++i) {

@@ -6,6 +6,10 @@
 
 #include "support/skip.h"
 
+#ifndef MSPSKEL_COMPILED
+#error "the target mspskel must tell its users that it is compiled: else each of them compiles it again"
+#endif
+
 namespace mspskel::test {
 namespace {
 bool skipped = false;

@@ -51,6 +51,7 @@ struct SurfaceSnapshot {
   static Index prev(Index h) { return h % 3 == 0 ? h + 2 : h - 1; }
   Index target(Index h) const { return origin[next(h)]; }
   Index apex(Index h) const { return origin[prev(h)]; }
+  double edge_length(Index h) const { return (position[target(h)] - position[origin[h]]).norm(); }
   // The outgoing half-edge that follows h counter-clockwise round its origin.
   Index next_outgoing(Index h) const { return twin[prev(h)]; }
 

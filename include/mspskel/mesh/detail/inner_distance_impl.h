@@ -27,10 +27,7 @@ inline double across_opposite_edge(const SurfaceSnapshot& surface, Index h, Inde
   return std::hypot(z_along - v_along, whole);
 }
 
-// The two ways that begin at a half-edge: along it, and across the edge opposite to its origin.
-inline double way_along(const SurfaceSnapshot& surface, Index h) {
-  return (surface.position[surface.target(h)] - surface.position[surface.origin[h]]).norm();
-}
+// The way that begins at a half-edge and goes across the edge opposite to its origin.
 inline double way_across(const SurfaceSnapshot& surface, Index h) {
   return across_opposite_edge(surface, h, surface.apex(surface.twin[SurfaceSnapshot::next(h)]));
 }
@@ -78,7 +75,7 @@ inline bool straight_way_is_free(const BoundingVolumeHierarchy& solid, const Vec
 
 MSPSKEL_INLINE SurfaceWays::SurfaceWays(const SurfaceSnapshot& surface) : surface_(surface) {
   for (Index h = 0; h < surface.halfedge_count(); ++h) {
-    edge_.push_back(detail::way_along(surface, h));
+    edge_.push_back(surface.edge_length(h));
     across_.push_back(detail::way_across(surface, h));
   }
 }
@@ -122,7 +119,7 @@ MSPSKEL_INLINE void inner_distances(const SurfaceSnapshot& surface, const Boundi
     if (free) seen.push_back(v);
   }
   detail::extend_ways(
-      surface, [&](Index h) { return detail::way_along(surface, h); },
+      surface, [&](Index h) { return surface.edge_length(h); },
       [&](Index h) { return detail::way_across(surface, h); }, [](Index) { return true; }, seen, distance);
 }
 

@@ -41,7 +41,7 @@ inline void measure_edges(const SurfaceSnapshot& s, MeshReport& r) {
   for (Index f = 0; f < s.face_count(); ++f) {
     double longest = 0.0;
     for (Index h = 3 * f; h < 3 * f + 3; ++h) {
-      const double length = (s.position[s.target(h)] - s.position[s.origin[h]]).norm();
+      const double length = s.edge_length(h);
       longest = std::max(longest, length);
       r.shortest_edge = std::min(r.shortest_edge, length);
       sum += length;
