@@ -1,4 +1,4 @@
-option(MSPSKEL_UNITY_BUILD "Compile each folder of sources as one translation unit" ON)
+option(MSPSKEL_UNITY_BUILD "Compile each folder of sources as one translation unit; OFF: each source, and each public header, by itself" ON)
 
 # Parsing OpenMesh, Eigen and JSON costs more than most sources themselves, so that each folder of the target's sources is one
 # translation unit. To be called after the last target_sources. Without MSPSKEL_UNITY_BUILD each source shows that it stands alone.

@@ -1,6 +1,6 @@
-# Every public header compiles alone: one generated source per header that includes nothing else. With the implementations
-# included each would take three times as long; that they include what they need shows in src, where each is compiled by
-# itself, and that all of them get along with each other in one source of headers only.
+# Every public header compiles alone: one generated source per header that includes nothing else. That takes as long as a whole
+# build does, so that only builds that compile each source by itself do it (preset dev); that is where each implementation shows
+# that it includes what it needs. Every build compiles all headers in one source of headers only: they get along with each other.
 file(GLOB_RECURSE public_headers RELATIVE ${PROJECT_SOURCE_DIR}/include CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/include/*.h)
 list(FILTER public_headers EXCLUDE REGEX "/detail/")
 set(all_headers "")
@@ -11,10 +11,12 @@ foreach(header ${public_headers})
   list(APPEND header_sources ${source})
   string(APPEND all_headers "#include \"${header}\"\n")
 endforeach()
-add_library(mspskel_public_headers OBJECT ${header_sources})
-target_link_libraries(mspskel_public_headers PRIVATE mspskel)
-target_compile_options(mspskel_public_headers PRIVATE -O0)
-mspskel_target_warnings(mspskel_public_headers)
+if(NOT MSPSKEL_UNITY_BUILD)
+  add_library(mspskel_public_headers OBJECT ${header_sources})
+  target_link_libraries(mspskel_public_headers PRIVATE mspskel)
+  target_compile_options(mspskel_public_headers PRIVATE -O0)
+  mspskel_target_warnings(mspskel_public_headers)
+endif()
 
 set(source ${CMAKE_CURRENT_BINARY_DIR}/headers/all_public_headers.cpp)
 file(CONFIGURE OUTPUT ${source} CONTENT "${all_headers}")

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "mspskel/slice/detail/cone_directions.h"
 #include "mspskel/slice/slice_error.h"
 #include "support/meshes.h"
 
