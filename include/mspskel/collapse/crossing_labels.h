@@ -72,6 +72,9 @@ class CrossingLabels {
 
   void index_regions(const VolumeCocycles& cocycles);
   void index_loops();
+  Vector3 in_view(const Vector3& p) const;
+  // Whether an edge of a loop may be above or below some edge between the points.
+  bool meets_loops(const std::vector<Vector3>& points) const;
   CocycleLabel label(const Vector3& a, const Vector3& b, bool below, bool& clear) const;
   static int region_crossing(const Row& row, const Vector3& a, const Vector3& b);
 

@@ -60,6 +60,9 @@ inline std::vector<Vector3> first_rays(const ArcPoints& points, const std::vecto
   return ray;
 }
 
+// Of an end that stays: far above what the stiffness of the thickest solid comes to.
+constexpr double kHeldWeight = 1e9;
+
 struct Pull {
   Vector3 goal = Vector3::Zero();
   double weight = 0.0;
@@ -186,7 +189,7 @@ MSPSKEL_INLINE VisibleSection visible_section(const BoundingVolumeHierarchy& sol
 
 MSPSKEL_INLINE void center_arcs(ArcGraph& graph, const BoundingVolumeHierarchy& solid,
                                 const CenteringOptions& options, const Execution& execution,
-                                const CrossingLabels& crossings) {
+                                const CrossingLabels& crossings, const std::vector<Index>& held) {
   validate(options);
   const auto resample = [&] {
     for (Arc& arc : graph.arcs)
@@ -212,6 +215,9 @@ MSPSKEL_INLINE void center_arcs(ArcGraph& graph, const BoundingVolumeHierarchy& 
         });
     for (Index i = 0; i < points.count(); ++i)
       if (left_out[i]) pulls[i] = detail::pull_between(points, pulls, i);
+    for (const Index hub : held)
+      if (points.kind[hub] == detail::ArcPoints::Kind::kLeaf)
+        pulls[hub] = {points.x[hub], detail::kHeldWeight, 1.0};
     const auto solution = detail::solve_positions(points, pulls, options.smoothness);
     std::vector<Vector3> goal(points.x);
     for (Index i = 0; i < points.count(); ++i)

@@ -74,7 +74,7 @@ MSPSKEL_INLINE CocycleLabel CrossingLabels::label(const Vector3& a, const Vector
     if (value != 0) result += rows_[i].image * value;
   });
   if (loop_edges_.empty()) return result;
-  const Vector3 va(u_.dot(a), v_.dot(a), d_.dot(a)), vb(u_.dot(b), v_.dot(b), d_.dot(b));
+  const Vector3 va = in_view(a), vb = in_view(b);
   loops_.in_box(va.cwiseMin(vb), va.cwiseMax(vb), [&](Index e) {
     const std::vector<Vector3>& loop = rows_[loop_edges_[e].row].loop;
     const auto k = static_cast<std::size_t>(loop_edges_[e].point);
@@ -94,6 +94,19 @@ MSPSKEL_INLINE CocycleLabel CrossingLabels::along(const std::vector<Vector3>& po
   return label;
 }
 
+MSPSKEL_INLINE Vector3 CrossingLabels::in_view(const Vector3& p) const {
+  return {u_.dot(p), v_.dot(p), d_.dot(p)};
+}
+
+MSPSKEL_INLINE bool CrossingLabels::meets_loops(const std::vector<Vector3>& points) const {
+  if (loop_edges_.empty()) return false;
+  Eigen::AlignedBox3d box;
+  for (const Vector3& p : points) box.extend(in_view(p));
+  bool any = false;
+  loops_.in_box(box.min(), box.max(), [&](Index) { any = true; });
+  return any;
+}
+
 MSPSKEL_INLINE bool CrossingLabels::goes_round(const std::vector<Vector3>& ring) const {
   if (rows_.empty() || ring.empty()) return false;
   const auto next = [&](std::size_t i) -> const Vector3& { return ring[i + 1 == ring.size() ? 0 : i + 1]; };
@@ -108,7 +121,7 @@ MSPSKEL_INLINE bool CrossingLabels::goes_round(const std::vector<Vector3>& ring)
     for (std::size_t i = 0; i < ring.size(); ++i) sum += region_crossing(rows_[row], ring[i], next(i));
     if (sum != 0) label += rows_[row].image * sum;
   });
-  if (!label.is_zero() || loop_edges_.empty()) return !label.is_zero();
+  if (!label.is_zero() || !meets_loops(ring)) return !label.is_zero();
   bool clear = true;
   for (std::size_t i = 0; i < ring.size(); ++i) label += (*this)(ring[i], next(i), clear);
   return !clear || !label.is_zero();

@@ -94,11 +94,11 @@ MSPSKEL_INLINE Index aim_ends(ArcGraph& graph, const SurfaceSnapshot& surface,
   return aimed;
 }
 
-MSPSKEL_INLINE Index aim_at_tips(ArcGraph& graph, const BoundingVolumeHierarchy& solid,
-                                 const std::vector<LimbTip>& tips, double step, double slack) {
+MSPSKEL_INLINE std::vector<Index> aim_at_tips(ArcGraph& graph, const BoundingVolumeHierarchy& solid,
+                                              const std::vector<LimbTip>& tips, double step, double slack) {
   const detail::ArcLeaves leaves(graph, graph.incidence());
   const std::vector<std::size_t> leaf_of_tip = detail::leaves_of_tips(graph, leaves, tips);
-  Index aimed = 0;
+  std::vector<Index> aimed;
   for (std::size_t t = 0; t < tips.size(); ++t) {
     if (leaf_of_tip[t] == detail::kNoLeaf || tips[t].kind == TipKind::kWayEnd) continue;
     const detail::LeafArc& leaf = leaves.leaf[leaf_of_tip[t]];
@@ -108,7 +108,7 @@ MSPSKEL_INLINE Index aim_at_tips(ArcGraph& graph, const BoundingVolumeHierarchy&
     if (!detail::lead_to_target(points, tips[t].target, tips[t].target != tips[t].position, solid, step))
       continue;
     detail::set_leaf_points(graph, leaf, std::move(points));
-    ++aimed;
+    aimed.push_back(leaf.tip);
   }
   return aimed;
 }

@@ -62,9 +62,9 @@ class ArcRefinement {
     center(draft_);
     prune();
     center(options_.centering);
-    aim_strays();  // before anyone calls a leaf a spur that centring has drawn back
-    if (drop_spurs() > 0) {
-      center(touch_up_);
+    const std::vector<Index> strays = aim_strays();  // before a leaf that centring has drawn back is called a spur
+    if (drop_spurs() > 0 || !strays.empty()) {
+      center(strays.empty() ? touch_up_ : options_.centering, strays);
       aim_strays();
     }
     tighten();
@@ -103,10 +103,11 @@ class ArcRefinement {
     keep_type("aiming of ends");
   }
   // In fins and wide ends centring draws a leaf back into the body, time after time.
-  void aim_strays() {
+  std::vector<Index> aim_strays() {
     constexpr double kSlack = 1.0;
-    aim_at_tips(graph_, solid_, tips_, options_.centering.step, kSlack);
+    std::vector<Index> strays = aim_at_tips(graph_, solid_, tips_, options_.centering.step, kSlack);
     keep_type("aiming of strays");
+    return strays;
   }
   void lay() {
     counts_.axes = lay_axes(graph_, surface_, solid_, tips_);
@@ -135,8 +136,9 @@ class ArcRefinement {
     dissolve_through_hubs(graph_);
     keep_type("merging of joints");
   }
-  void center(const CenteringOptions& centering) {
-    center_arcs(graph_, solid_, centering, execution_, classes_.crossings);
+  // The ends of the hubs that are held stay.
+  void center(const CenteringOptions& centering, const std::vector<Index>& held = {}) {
+    center_arcs(graph_, solid_, centering, execution_, classes_.crossings, held);
     keep_type("centring");
   }
   void zip() {
