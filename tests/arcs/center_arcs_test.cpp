@@ -57,6 +57,26 @@ TEST_CASE("An arc beside the axis of a tube ends on it, its ends at their height
   }
 }
 
+TEST_CASE("An end that is held stays where it is, and the arc comes to the axis between") {
+  const Solid solid(tube(1, 12, 24, 24));
+  // Its last third is a straight line from beside the axis to the end on it.
+  const auto line = [](double z) { return Vector3(std::min(0.5, 0.2 * (10 - z)), 0, z); };
+  for (const bool held : {false, true}) {
+    ArcGraph graph = arc_along_tube(solid, line);
+    const Vector3 target = solid.at(0, 0.3, 11);
+    graph.move_hub(1, target);
+    CenteringOptions options;
+    options.rounds = 30;
+    center_arcs(graph, solid.hierarchy, options, {}, {}, held ? std::vector<Index>{1} : std::vector<Index>{});
+    REQUIRE(arcs_meet_hubs(graph));
+    CHECK(((graph.hub_position[1] - target).norm() < 1e-6) == held);
+    for (const Vector3& p : graph.arcs[0].points) {
+      const Vector3 x = solid.surface.frame.to_model(p);
+      if (x.z() < 9) CHECK(off_axis(x) < 0.02);
+    }
+  }
+}
+
 TEST_CASE("Arc points lie at most a step apart") {
   const Solid solid(tube(1, 12, 24, 24));
   ArcGraph graph = arc_along_tube(solid, [](double z) { return Vector3(0.4 * std::sin(z), 0.3, z); });

@@ -29,7 +29,7 @@ TEST_CASE("A leaf arc that stands for a tip is led to its target") {
   const Solid solid(to_mesh(skin_graph(tripod(), 1200)));
   ArcGraph graph = tripod_arcs(solid, 0.5, nullptr);
   const std::vector<LimbTip> tips = tripod_tips(solid);
-  CHECK(aim_at_tips(graph, solid.hierarchy, tips, 0.01) == 3);
+  CHECK(aim_at_tips(graph, solid.hierarchy, tips, 0.01).size() == 3);
   const auto at = graph.incidence();
   for (const LimbTip& tip : tips) {
     double nearest = std::numeric_limits<double>::infinity();

@@ -17,8 +17,8 @@ Index aim_ends(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVo
 // Leaf arcs that stand for a limb's tip (leaves_of_tips) are led straight to its target from their last point
 // that sees it, up to the one nearest to it; those that end within `slack` half widths of the limb from it
 // stay. Returns the hubs of the ends that moved. Cost: O(vertices on leaf arcs), a few queries a tip.
-std::vector<Index> aim_at_tips(ArcGraph& graph, const BoundingVolumeHierarchy& solid, const std::vector<LimbTip>& tips,
-                  double step, double slack = 0);
+std::vector<Index> aim_at_tips(ArcGraph& graph, const BoundingVolumeHierarchy& solid,
+                               const std::vector<LimbTip>& tips, double step, double slack = 0);
 
 }  // namespace mspskel
 

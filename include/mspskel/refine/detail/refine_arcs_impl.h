@@ -35,13 +35,11 @@ class ArcRefinement {
         classes_(classes),
         type_(homotopy_type(graph)),
         inner_(surface, solid, execution),
-        draft_(options.centering),
-        touch_up_(options.centering) {
+        draft_(options.centering) {
     // Until the graph's shape is settled a coarser line will do.
     draft_.rounds = (options.centering.rounds + 2) / 3;
     draft_.step = std::min(0.5, 2 * options.centering.step);
     draft_.rays = std::max(4, 2 * options.centering.rays / 3);
-    touch_up_.rounds = draft_.rounds;
   }
 
   RefinementCounts run() {
@@ -62,11 +60,7 @@ class ArcRefinement {
     center(draft_);
     prune();
     center(options_.centering);
-    const std::vector<Index> strays = aim_strays();  // before a leaf that centring has drawn back is called a spur
-    if (drop_spurs() > 0 || !strays.empty()) {
-      center(strays.empty() ? touch_up_ : options_.centering, strays);
-      aim_strays();
-    }
+    settle_strays();
     tighten();
     lay();  // straight again: in a block every wall is as near, and centring goes where the noise leads
     lay_paths();
@@ -108,6 +102,19 @@ class ArcRefinement {
     std::vector<Index> strays = aim_at_tips(graph_, solid_, tips_, options_.centering.step, kSlack);
     keep_type("aiming of strays");
     return strays;
+  }
+  // A leaf that centring has drawn back from its target goes there again, before anyone calls it a spur, and
+  // stays while the arcs settle. That may draw back others.
+  void settle_strays() {
+    constexpr int kPasses = 3;
+    std::vector<Index> held = aim_strays();
+    bool unsettled = drop_spurs() > 0 || !held.empty();
+    for (int pass = 0; pass < kPasses && unsettled; ++pass) {
+      center(options_.centering, held);
+      const std::vector<Index> strays = aim_strays();
+      held.insert(held.end(), strays.begin(), strays.end());
+      unsettled = !strays.empty();
+    }
   }
   void lay() {
     counts_.axes = lay_axes(graph_, surface_, solid_, tips_);
@@ -172,7 +179,7 @@ class ArcRefinement {
   const ArcClasses& classes_;
   const ArcGraphType type_;
   InnerGraph inner_;
-  CenteringOptions draft_, touch_up_;
+  CenteringOptions draft_;
   RefinementCounts counts_;
 };
 
