@@ -1,5 +1,7 @@
 """Meshes with known answers, made once."""
 
+import os
+
 import pytest
 
 import mspskel
@@ -25,3 +27,15 @@ def animal(quadruped):
 def ring(torus):
     """A loop."""
     return mspskel.skeletonize(torus)
+
+
+@pytest.fixture(scope="session")
+def client():
+    """A cluster of the user's, whose workers know the hooks of these tests."""
+    from distributed import Client, LocalCluster
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("PYTHONPATH", os.pathsep.join([os.path.dirname(__file__), os.environ.get("PYTHONPATH", "")]))
+        cluster = LocalCluster(n_workers=1, threads_per_worker=2, dashboard_address=":0")
+    with cluster, Client(cluster) as client:
+        yield client

@@ -2,11 +2,13 @@
 
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
 import sys
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -19,7 +21,9 @@ pytest.importorskip("pyarrow")
 
 import dask  # noqa: E402
 import mspskel.batch  # noqa: E402
-from mspskel.batch import command  # noqa: E402
+from mspskel.batch import Job, command  # noqa: E402
+from mspskel.batch.child import Child  # noqa: E402
+from mspskel.batch.scheduler import answers  # noqa: E402
 from test_formats import write_off  # noqa: E402
 
 
@@ -48,9 +52,11 @@ def files_below(folder):
 
 
 def test_every_way_to_fail_is_a_row(meshes, tmp_path):
+    # The address sanitizer's shadow memory is address space too, far more than any limit.
+    limit = 0 if "libasan" in os.environ.get("LD_PRELOAD", "") else 1 << 33
     with dask.config.set({"distributed.deploy.lost-worker-timeout": "1 ms"}):  # workers never come back as soon as that
         table = mspskel.batch.map(
-            meshes, tmp_path, workers=2, time_limit=3, memory_limit=1 << 33, work="batch_hooks:work", formats=(".skel", ".swc")
+            meshes, tmp_path, workers=2, time_limit=3, memory_limit=limit, work="batch_hooks:work", formats=(".skel", ".swc")
         )
     rows = {Path(row.mesh).relative_to(meshes).as_posix(): row for row in table.itertuples()}
     assert len(rows) == 11
@@ -69,15 +75,6 @@ def test_every_way_to_fail_is_a_row(meshes, tmp_path):
     back = pandas.read_parquet(tmp_path / "table.parquet")
     assert list(back.mesh) == list(table.mesh) == list(pandas.read_csv(tmp_path / "table.csv").mesh)
     assert (tmp_path / "good0.off.skel").read_bytes() == mspskel.skeletonize(meshes / "good0.off").to_bytes("x.skel")
-
-
-@pytest.fixture(scope="session")
-def client():
-    """A cluster of the user's."""
-    from distributed import Client, LocalCluster
-
-    with LocalCluster(n_workers=1, threads_per_worker=2, dashboard_address=":0") as cluster, Client(cluster) as client:
-        yield client
 
 
 def test_only_what_is_missing_is_done(meshes, tmp_path, client):
@@ -102,6 +99,59 @@ def test_only_what_is_missing_is_done(meshes, tmp_path, client):
     one = next(out.rglob("*.json"))
     one.write_text(one.read_text()[:-20])
     assert run(smallest=0.02)[1] == {one}
+
+
+@pytest.mark.parametrize("out", ["", "out"])
+def test_skeletons_of_an_earlier_batch_are_no_meshes(meshes, tmp_path, client, out):
+    shutil.copy(meshes / "good0.off", tmp_path / "mesh.off")
+    for _ in range(2):
+        table = mspskel.batch.map(tmp_path, tmp_path / out, client=client, formats=[".obj", ".vtp"], checks=False)
+        assert [Path(mesh).name for mesh in table.mesh] == ["mesh.off"]
+    (tmp_path / "other.obj").touch()
+    assert len(mspskel.batch.find_meshes(tmp_path, out=tmp_path / out)) == 2
+    assert len(mspskel.batch.find_meshes(tmp_path, out=tmp_path / "elsewhere")) == 4
+
+
+def test_all_formats_of_meshes_are_found(tmp_path):
+    reader = (Path(__file__).resolve().parents[2] / "include/mspskel/io/read_mesh.h").read_text()
+    suffixes = re.search(r"that of the extension \(([^,]*), any case", reader).group(1).replace("//", "").split()
+    assert len(suffixes) > 8
+    for suffix in suffixes:
+        (tmp_path / f"mesh{suffix.upper()}").touch()
+        assert suffix in command.parser().format_help()
+    assert len(mspskel.batch.find_meshes(tmp_path)) == len(suffixes)
+
+
+def test_the_child_says_what_the_limit_ended(meshes, tmp_path, capfd):
+    child = Child()
+    job = Job(str(meshes / "good0.off"), "good0.off", str(tmp_path), checks=False, time_limit=60)
+    assert child.run(job)["status"] == "done"
+    answer = child.run(replace(job, options={"time_limit": 1e-6}))
+    child.stop()
+    assert (answer["status"], answer["message"]) == ("timed out", "the time limit is over")
+    assert capfd.readouterr() == ("", "")
+
+
+def test_workers_that_come_later_get_work(meshes, tmp_path, client, monkeypatch):
+    asked, given, got = [], 0, 0
+
+    def no_threads_at_first():
+        asked.append(time.monotonic())
+        return {} if len(asked) == 1 else {"late": 2}
+
+    def submit(*words, real=client.submit, **more):
+        nonlocal given
+        given += 1
+        return real(*words, **more)
+
+    monkeypatch.setattr(client, "nthreads", no_threads_at_first)
+    monkeypatch.setattr(client, "submit", submit)
+    jobs = [Job(str(meshes / "good0.off"), f"{i}.off", str(tmp_path), work="batch_hooks:slow") for i in range(12)]
+    at_once = []
+    for _ in answers(client, jobs, window=2):
+        at_once.append(given - got)
+        got += 1
+    assert at_once[0] == 1 and max(at_once) == 4 and got == given == 12
 
 
 def test_what_is_wrong_shows_before_the_work(meshes, tmp_path, client):

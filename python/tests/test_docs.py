@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 import mspskel
+from test_formats import write_off
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
 
@@ -28,6 +29,20 @@ def test_names_in_the_tables_exist(animal):
     assert len(names) > 50
     missing = [name for name in names if not hasattr(mspskel.Skeleton, name) and not hasattr(animal, name)]
     assert set(missing) <= {"path", "name"}
+
+
+def test_the_examples_of_the_page_run(tmp_path, monkeypatch, request, torus):
+    pytest.importorskip("distributed"), pytest.importorskip("pyarrow")
+    blocks = re.findall(r"^```python\n(.*?)^```", (DOCS / "python.md").read_text(), re.M | re.S)
+    assert len(blocks) == 4
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "meshes").mkdir()
+    write_off(tmp_path / "meshes" / "ring.off", torus)
+    names = {"mesh": mspskel.sample("quadruped"), "client": request.getfixturevalue("client")}
+    for block in blocks:
+        exec(compile(block, "python.md", "exec"), names)
+    assert {"quadruped.swc", "mesh.glb", "skeletons"} <= {path.name for path in tmp_path.iterdir()}
+    assert len(names["skeleton"].terminals()) > 4 and list(names["table"].status) == ["done"]
 
 
 def test_the_page_has_the_options_of_the_batch():

@@ -60,7 +60,7 @@ def map(
     Workers need the same paths and this package. A mesh is done again if its size, its time of change, the options or the
     package's version changed. Returns the table. Raises UsageError before the work, ConnectionError if the scheduler is lost.
     """
-    listed = find_meshes(meshes, pattern) if isinstance(meshes, (str, os.PathLike)) else meshes
+    listed = find_meshes(meshes, pattern, out) if isinstance(meshes, (str, os.PathLike)) else meshes
     base = meshes if root is None and isinstance(meshes, (str, os.PathLike)) else root
     settings = dict(formats=tuple(formats), options=merged(options, keywords).given, checks=checks, work=work)
     jobs = make_jobs(listed, out, base, **settings, time_limit=time_limit, memory_limit=memory_limit)

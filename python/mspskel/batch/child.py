@@ -29,7 +29,7 @@ class Child:
     def run(self, job: Job) -> dict[str, Any]:
         """The job's answer: a row, or status, error and message. Never raises for what the job does."""
         if self._process is None or self._process.poll() is not None:
-            command = [sys.executable, "-m", "mspskel.batch.child"]
+            command = [sys.executable, "-c", "from mspskel.batch.child import main; main()"]
             self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
         try:
             self._process.stdin.write(json.dumps(asdict(job)).encode() + b"\n")
@@ -92,12 +92,14 @@ def _limit_memory(size: int) -> None:
 
 
 def _work(job: Job) -> dict[str, Any]:
-    from ..errors import Error
+    from ..errors import Cancelled, Error
 
     module, function = job.work.split(":")
     try:
         _limit_memory(job.memory_limit)
         return {"status": "done", **getattr(importlib.import_module(module), function)(job)}
+    except Cancelled as error:  # by the limit: nobody else asks for it here
+        return {"status": "timed out", "error": type(error).__name__, "message": str(error)}
     except Error as error:
         return {"status": "failed", "error": type(error).__name__, "message": str(error)}
     except MemoryError:
@@ -117,6 +119,3 @@ def main() -> None:
         answers.write(json.dumps(_work(Job(**given))).encode() + b"\n")
         answers.flush()
 
-
-if __name__ == "__main__":
-    main()

@@ -10,6 +10,7 @@ from typing import Any
 from ..errors import Error, UsageError
 from ..options import describe
 from . import map as map_meshes
+from .jobs import MESH_SUFFIXES
 
 UNITS = {"": 1, "k": 10**3, "m": 10**6, "g": 10**9, "t": 10**12}
 
@@ -22,7 +23,7 @@ def parser() -> argparse.ArgumentParser:
         epilog="Further options are those of `mspskel` that say what is computed, such as --smallest 0.004.",
         allow_abbrev=False,
     )
-    p.add_argument("IN", help="folder with meshes (.off .obj .ply .stl)")
+    p.add_argument("IN", help=f"folder with meshes ({' '.join(MESH_SUFFIXES)})")
     p.add_argument("OUT", help="folder for skeletons, table.csv and table.parquet")
     p.add_argument("--scheduler", metavar="ADDRESS", help="of a Dask cluster; without it workers are started here")
     p.add_argument("--workers", type=int, metavar="N", help="started here; as many as the machine has cores by default")

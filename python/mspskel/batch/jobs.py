@@ -10,16 +10,27 @@ from ..errors import UsageError
 from ..options import Options
 from .job import Job
 
-MESH_SUFFIXES = (".off", ".obj", ".ply", ".stl")
+#: What a folder's meshes are known by: all that the engine reads.
+MESH_SUFFIXES = (".off", ".obj", ".ply", ".stl", ".vtk", ".vtp", ".gltf", ".glb", ".3mf")
 
 
-def find_meshes(folder: str | os.PathLike, pattern: str | None = None) -> list[Path]:
-    """The files below the folder that match, in order; without a pattern all meshes by extension."""
+def find_meshes(
+    folder: str | os.PathLike, pattern: str | None = None, out: str | os.PathLike | None = None
+) -> list[Path]:
+    """The files below the folder that match, in order; without a pattern all meshes by extension.
+
+    Where `out` is the folder or lies in it, what an earlier batch made there of the other files is left out: some formats of
+    skeletons have extensions of meshes. Raises UsageError for what is not a folder.
+    """
     base = Path(folder)
     if not base.is_dir():
         raise UsageError(f"{base} is not a folder")
     found = (path for path in base.rglob(pattern or "*") if path.is_file())
-    return sorted(path for path in found if pattern or path.suffix.lower() in MESH_SUFFIXES)
+    meshes = sorted(path for path in found if pattern or path.suffix.lower() in MESH_SUFFIXES)
+    if out is None:
+        return meshes
+    made = {os.path.join(os.path.abspath(out), path.relative_to(base)) for path in meshes}
+    return [path for path in meshes if os.path.splitext(os.path.abspath(path))[0] not in made]
 
 
 def make_jobs(

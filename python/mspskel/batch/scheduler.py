@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from contextlib import contextmanager
+from itertools import islice
 from typing import TYPE_CHECKING, Any, Iterator
 
 from .job import Job, write_record
@@ -38,25 +39,34 @@ def connected(scheduler: str | None, workers: int | None) -> Iterator[Client]:
 
 
 def answers(client: Client, jobs: list[Job], window: int = 8) -> Iterator[dict[str, Any]]:
-    """Rows as they come. At most `window` jobs a thread are with the scheduler, so that it holds little."""
+    """Rows as they come. At most `window` jobs a thread are with the scheduler, so that it holds little.
+
+    Workers come and go; once a second the number of threads is asked for again.
+    """
     from distributed import as_completed
 
     waiting = iter(jobs)
     known: dict[str, tuple[Job, float]] = {}
     stream = as_completed()
 
-    def submit(count: int) -> None:
-        for _, job in zip(range(count), waiting):
+    most, asked = 0, float("-inf")
+
+    def submit() -> None:
+        nonlocal most, asked
+        if time.monotonic() > asked + 1:
+            most = max(1, window * sum(client.nthreads().values()))
+            asked = time.monotonic()
+        for job in islice(waiting, max(0, most - len(known))):
             future = client.submit(run_task, job, pure=False)
             known[future.key] = (job, time.monotonic())
             stream.add(future)
 
-    submit(max(1, window * sum(client.nthreads().values())))
+    submit()
     for future in stream:
         job, start = known.pop(future.key)
         yield future.result() if future.status == "finished" else _lost(job, future, time.monotonic() - start)
         future.release()
-        submit(1)
+        submit()
 
 
 def _lost(job: Job, future: Any, seconds: float) -> dict[str, Any]:
