@@ -17,7 +17,7 @@ def work(job):
     if name.startswith("hangs"):
         time.sleep(1000)
     if name.startswith("crashes"):
-        os.kill(os.getpid(), signal.SIGSEGV)
+        os.kill(os.getpid(), signal.SIGABRT)  # sanitizers take SIGSEGV for a fault of their own
     if name.startswith("kills"):
         os.kill(worker_process(), signal.SIGKILL)
         time.sleep(1000)
