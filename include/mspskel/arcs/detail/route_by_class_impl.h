@@ -7,98 +7,12 @@
 #include <unordered_set>
 #include <utility>
 
+#include "mspskel/arcs/detail/chord_points.h"
+#include "mspskel/arcs/detail/tube_classes.h"
 #include "mspskel/base/linkage.h"
-#include "mspskel/solid/detail/inward_chord.h"
 
 namespace mspskel {
 namespace detail {
-
-// Points inside the solid for each vertex of the surface: the middle of its inward chord, and one just below
-// the surface. Found when first asked for.
-//
-// Labels of ways begin at the vertex where cocycles are regions. A linking number cannot: its loop may pass
-// through the vertex. It begins at the point just below, and is carried from vertex to vertex by the straight
-// steps between these.
-class ChordPoints {
- public:
-  enum Layer { kMiddle, kShallow };
-  struct Point {
-    Vector3 x = Vector3::Zero();
-    double clearance = 0.0;  // a lower bound of the distance to the surface; 0: x is the vertex itself
-    CocycleLabel from_vertex;
-  };
-
-  ChordPoints(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
-              const CrossingLabels& crossings)
-      : surface_(surface), solid_(solid), crossings_(crossings) {}
-
-  // The label's entries whose cocycles are regions, or the other ones.
-  CocycleLabel part(const CocycleLabel& label, bool of_regions) const {
-    CocycleLabel result;
-    for (const auto& [index, value] : label.entries())
-      if (crossings_.is_region(index) == of_regions) result += CocycleLabel::unit(index, value);
-    return result;
-  }
-  // Of the straight way from the vertex, which x sees.
-  CocycleLabel from_vertex(Index v, const Vector3& x) {
-    const Vector3& position = surface_.position[v];
-    const CocycleLabel label = crossings_(position, x);
-    if (!crossings_.has_loops()) return label;
-    return part(label, true) + part(crossings_(base(v), x), false);
-  }
-  // Linking numbers of the step along the half-edge below the surface.
-  CocycleLabel below(Index h) {
-    return part(crossings_(base(surface_.origin[h]), base(surface_.target(h))), false);
-  }
-
-  // Whether that step has its ends below the surface and stays inside.
-  bool stays_below(Index h) {
-    const Point a = (*this)(surface_.origin[h], kShallow), b = (*this)(surface_.target(h), kShallow);
-    return a.clearance > 0 && b.clearance > 0 && !solid_.segment_crosses(a.x, b.x);
-  }
-
-  const Point& operator()(Index v, Layer layer) {
-    const auto [it, fresh] = points_.try_emplace(2 * std::int64_t{v} + layer);
-    if (!fresh) return it->second;
-    Point point;
-    point.x = surface_.position[v];
-    place(v, layer, point);
-    return points_[2 * std::int64_t{v} + layer] = std::move(point);
-  }
-
- private:
-  void place(Index v, Layer layer, Point& point) {
-    constexpr double kShallowShare = 0.05, kOfEdge = 0.02;
-    if (surface_.vertex_halfedge[v] == kNone) return;
-    const auto chord = inward_chord(surface_, solid_, v);
-    if (!chord) return;
-    const Vector3& position = surface_.position[v];
-    double depth = 0.5 * chord->length;
-    if (layer == kShallow)
-      for_each_neighbour(surface_, v, [&](Index w) {
-        depth = std::min(
-            {depth, kShallowShare * chord->length, kOfEdge * (surface_.position[w] - position).norm()});
-      });
-    if (!(depth > 0)) return;
-    const Vector3 x = chord->start - depth * surface_.normal[v];
-    if (!solid_.inside(x)) return;
-    point.x = x;
-    point.clearance = std::min(depth, solid_.closest(point.x, depth).distance);
-    if (layer == kMiddle || !crossings_.has_loops())
-      point.from_vertex = from_vertex(v, point.x);
-    else
-      point.from_vertex = part(crossings_(position, point.x), true);
-  }
-  Vector3 base(Index v) {
-    const Point& shallow = (*this)(v, kShallow);
-    return shallow.clearance > 0 ? shallow.x : surface_.position[v];
-  }
-
-  const SurfaceSnapshot& surface_;
-  const BoundingVolumeHierarchy& solid_;
-  const CrossingLabels& crossings_;
-  std::unordered_map<std::int64_t, Point> points_;
-};
 
 class TubeRouter {
  public:
@@ -110,10 +24,8 @@ class TubeRouter {
         solid_(solid),
         crossings_(crossings),
         points_(surface, solid, crossings),
-        hubs_(graph.hub_position.size()) {
-    index_nodes();
-    if (crossings.has_loops()) find_potential();
-  }
+        classes_(tubes, surface, crossings, points_),
+        hubs_(graph.hub_position.size()) {}
 
   ClassRouting run(const Execution& execution) {
     const std::vector<bool> in_cycle = arcs_of_cycles(graph_);
@@ -158,77 +70,6 @@ class TubeRouter {
   static constexpr std::size_t kNear = 64;
   static constexpr double kLeastClearance = 1e-9;
 
-  void index_nodes() {
-    Index nodes = 0;
-    for (const Index node : tubes_.node_of_vertex) nodes = std::max(nodes, node + 1);
-    begin_.assign(static_cast<std::size_t>(nodes) + 1, 0);
-    for (const Index node : tubes_.node_of_vertex)
-      if (node != kNone) ++begin_[node + 1];
-    for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
-    vertices_.resize(static_cast<std::size_t>(begin_.back()));
-    std::vector<Index> fill(begin_.begin(), begin_.end() - 1);
-    for (std::size_t v = 0; v < tubes_.node_of_vertex.size(); ++v)
-      if (const Index node = tubes_.node_of_vertex[v]; node != kNone)
-        vertices_[fill[node]++] = static_cast<Index>(v);
-  }
-
-  // The surface's labels and the linking numbers of the straight steps below its edges differ by a potential
-  // of the vertices. It is carried along steps that stay inside; the few others, at edges as sharp as a step
-  // is deep, may pass on the wrong side of a loop.
-  void find_potential() {
-    potential_.resize(tubes_.node_of_vertex.size());
-    std::vector<bool> reached(potential_.size(), false);
-    std::vector<Index> queue, doubtful;
-    const auto reach = [&](Index h) {
-      const Index v = surface_.origin[h], w = surface_.target(h);
-      reached[w] = true;
-      potential_[w] = potential_[v] + points_.below(h) - points_.part(tubes_.halfedge[h], false);
-      queue.push_back(w);
-    };
-    for (const Index root : vertices_) {
-      if (reached[root]) continue;
-      reached[root] = true;
-      queue.push_back(root);
-      while (!queue.empty() || !doubtful.empty()) {
-        if (queue.empty()) {
-          const Index h = doubtful.back();
-          doubtful.pop_back();
-          if (!reached[surface_.target(h)]) reach(h);
-          continue;
-        }
-        const Index v = queue.back();
-        queue.pop_back();
-        for_each_outgoing(v, [&](Index h) {
-          if (reached[surface_.target(h)]) return;
-          if (points_.stays_below(h))
-            reach(h);
-          else
-            doubtful.push_back(h);
-        });
-      }
-    }
-  }
-  template <class Visit>
-  void for_each_outgoing(Index v, Visit visit) const {
-    const Index first = surface_.vertex_halfedge[v];
-    Index h = first;
-    do {
-      visit(h);
-      h = surface_.next_outgoing(h);
-    } while (h != first);
-  }
-
-  // Of a way from the origin of its node to the vertex. What the origins' potential adds cancels along a
-  // tube.
-  CocycleLabel to_vertex(Index v) const {
-    if (potential_.empty()) return tubes_.to_vertex[v];
-    return tubes_.to_vertex[v] + potential_[v];
-  }
-  CocycleLabel along_halfedge(Index h) const {
-    if (potential_.empty()) return tubes_.halfedge[h];
-    return tubes_.halfedge[h] + potential_[surface_.target(h)] - potential_[surface_.origin[h]];
-  }
-
   // Finds a way from the origin of the hub's node to the hub: over the surface to the nearest vertex of its
   // part that sees the hub. Where none does the hub moves to a chord of its part. Where there is no chord,
   // the straight way to the hub is as good as any.
@@ -239,8 +80,9 @@ class TubeRouter {
     const Index node = tubes_.arcs.node_of_hub[h];
     const Vector3& x = graph_.hub_position[h];
     std::vector<std::pair<double, Index>> all;
-    for (Index i = begin_[node]; i < begin_[node + 1]; ++i)
-      all.push_back({(surface_.position[vertices_[i]] - x).squaredNorm(), vertices_[i]});
+    classes_.for_each_vertex(node, [&](Index v) {
+      all.push_back({(surface_.position[v] - x).squaredNorm(), v});
+    });
     const auto end = all.begin() + static_cast<std::ptrdiff_t>(std::min(all.size(), kNear));
     std::partial_sort(all.begin(), end, all.end());
     for (auto it = all.begin(); it != end; ++it) hub.near.push_back(it->second);
@@ -248,7 +90,7 @@ class TubeRouter {
       for (const Index v : hub.near) {
         const Vector3 start = surface_.position[v] - 1e-7 * surface_.normal[v];
         if (!solid_.inside(start) || solid_.segment_crosses(start, x)) continue;
-        hub.from_origin = to_vertex(v) + points_.from_vertex(v, x);
+        hub.from_origin = classes_.to_vertex(v) + points_.from_vertex(v, x);
         return;
       }
     for (const Index v : hub.near)
@@ -256,11 +98,11 @@ class TubeRouter {
         const ChordPoints::Point& point = points_(v, layer);
         if (point.clearance == 0) continue;
         graph_.move_hub(h, point.x);
-        hub.from_origin = to_vertex(v) + point.from_vertex;
+        hub.from_origin = classes_.to_vertex(v) + point.from_vertex;
         return;
       }
     if (!hub.near.empty())
-      hub.from_origin = to_vertex(hub.near.front()) + points_.from_vertex(hub.near.front(), x);
+      hub.from_origin = classes_.to_vertex(hub.near.front()) + points_.from_vertex(hub.near.front(), x);
   }
 
   CocycleLabel wanted(Index a) const {
@@ -295,7 +137,7 @@ class TubeRouter {
   // Whether a straight step between two points has the class of the edge.
   bool step_keeps_class(const State& from, const State& to, Index h) {
     const ChordPoints::Point a = points_(from.vertex, from.layer), b = points_(to.vertex, to.layer);
-    const CocycleLabel edge = h == kNone ? CocycleLabel{} : along_halfedge(h);
+    const CocycleLabel edge = h == kNone ? CocycleLabel{} : classes_.along_halfedge(h);
     return a.from_vertex + crossings_(a.x, b.x) == edge + b.from_vertex;
   }
 
@@ -311,7 +153,7 @@ class TubeRouter {
         const ChordPoints::Point& point = points_(v, layer);
         const bool inside = point.clearance > 0 && !solid_.segment_crosses(x, point.x);
         if (!inside && !outside) continue;
-        const CocycleLabel label = to_vertex(v) + point.from_vertex + crossings_(point.x, x);
+        const CocycleLabel label = classes_.to_vertex(v) + point.from_vertex + crossings_(point.x, x);
         if (label == hubs_[h].from_origin)
           result.push_back({cost_of(point.x - x, inside ? point.clearance : 0), {place, v, layer}});
       }
@@ -425,9 +267,8 @@ class TubeRouter {
   const CrossingLabels& crossings_;
   const Execution* execution_ = nullptr;
   ChordPoints points_;
+  TubeClasses classes_;
   std::vector<Hub> hubs_;
-  std::vector<Index> begin_, vertices_;  // of each node
-  std::vector<CocycleLabel> potential_;  // per vertex; empty where all cocycles are regions
   std::unordered_map<std::int64_t, Record> records_;
   std::priority_queue<Step, std::vector<Step>, std::greater<>> queue_;
   std::int64_t order_ = 0;
