@@ -224,11 +224,20 @@ TEST_CASE("the certificate asks whether to stop") {
     return ++all, true;
   };
   certify(s, graph, {}, {}, execution);
-  CHECK(all >= 3);
+  constexpr int kAlways = 3;
+  CHECK(all >= kAlways);
+  // How often loops ask depends on the time that they take, so that a run may ask less often than the first.
   for (int last = 1; last <= all; ++last) {
     int asked = 0;
     execution.progress = [&](const char*, double) { return ++asked < last; };
-    CHECK_THROWS_AS(certify(s, graph, {}, {}, execution), Cancelled);
-    CHECK(asked == last);
+    bool cancelled = false;
+    try {
+      certify(s, graph, {}, {}, execution);
+    } catch (const Cancelled&) {
+      cancelled = true;
+    }
+    CHECK(cancelled == (asked == last));
+    CHECK(asked <= last);
+    if (last <= kAlways) CHECK(cancelled);
   }
 }
