@@ -11,6 +11,7 @@
 #include "fuzz/fuzzed_options.h"
 #include "mspskel/collapse/topology_certificate.h"
 #include "mspskel/mesh/build_mesh.h"
+#include "mspskel/mesh/component_solids.h"
 #include "mspskel/mesh/mesh_report.h"
 #include "mspskel/skeleton/polyline_graph.h"
 #include "mspskel/skeleton/surface_map.h"
@@ -104,14 +105,18 @@ inline void check_refined(const ExtractResult& result, const TopologyCertificate
 }
 
 // Every node lies in the solid of its own component, or the certificate says that something is outside, which
-// the program warns of.
+// the program warns of. Of an embedded surface it lies within the component's own faces too, whatever lies in
+// them; a cavity may cross what it is in, and then parity over both is the solid.
 inline void check_containment(const ExtractResult& result, const std::vector<Index>& component,
                               const TopologyCertificate& certificate) {
   if (certificate.edges_not_inside > 0) return;
   const SurfaceSnapshot& surface = result.surface;
   std::vector<std::vector<Index>> faces(static_cast<std::size_t>(surface.component_count));
-  for (Index f = 0; f < surface.face_count(); ++f)
-    faces[surface.component[surface.origin[3 * f]]].push_back(f);
+  if (certificate.self_intersecting)
+    faces = find_component_solids(surface).faces;
+  else
+    for (Index f = 0; f < surface.face_count(); ++f)
+      faces[surface.component[surface.origin[3 * f]]].push_back(f);
   std::vector<std::vector<Index>> nodes(faces.size());
   for (std::size_t i = 0; i < component.size(); ++i) nodes[component[i]].push_back(static_cast<Index>(i));
   for (std::size_t c = 0; c < faces.size(); ++c) {

@@ -79,6 +79,22 @@ TEST_CASE("Ways to ends round a corner stay inside") {
   CHECK(least < 0.1);
 }
 
+TEST_CASE("Grooves between sheets are no vessels, however deep or long they are") {
+  const Planes angle{{{{0, 0}, {1, 0.08}, {2, 0.32}, {3, 1.07}},
+                      {{0, 0}, {1, 0.08}, {2, 0.95}, {3, 1.03}},
+                      {{0, 0}, {1, 2.1}}}};
+  const Planes tee{{{{0, 0}, {1, 0.18}, {2, 0.24}, {3, 1.05}},
+                    {{0, 0}, {1, 1.19}, {2, 1.44}, {3, 1.5}},
+                    {{0, 0}, {1, 1.9}}}};
+  const Planes channel{
+      {{{0, 0}, {1, 0.11}, {2, 0.3}, {3, 0.5}}, {{0, 0}, {1, 0.6}, {2, 0.8}, {3, 2.2}}, {{0, 0}, {1, 7.7}}}};
+  for (const int fine : {1, 4}) {
+    check_useful(to_mesh(with_planes_at(boundary(drawn(profiles()[1]), fine), fine, angle)));
+    check_useful(to_mesh(with_planes_at(boundary(drawn(profiles()[2]), fine), fine, tee)));
+    check_useful(to_mesh(with_planes_at(boundary(drawn(profiles()[0]), fine), fine, channel)));
+  }
+}
+
 TEST_CASE("A plate has a skeleton as long as it is wide") {
   const Planes place{{{{0, 0}, {1, 1}}, {{0, 0}, {1, 1}}, {{0, 0}, {1, 0.01}}}};
   check_useful(to_mesh(with_planes_at(boundary(drawn({"x"}), 4), 4, place)));
@@ -108,14 +124,14 @@ TEST_CASE("A stub gives way to a path from end to end; what is long enough stays
     return graph;
   };
   ArcGraph stub = arc_between(9, 10);
-  REQUIRE(lay_longest_paths(stub, inner, 0.008) == 1);
+  REQUIRE(lay_longest_paths(stub, inner, {false}, 0.008) == 1);
   CHECK(homotopy_type(stub) == ArcGraphType{1, 0});
   const Arc& path = stub.arcs.back();
   CHECK(arc_length(path) * bar.surface.frame.scale > 16);
   for (std::size_t i = 1; i < path.points.size(); ++i)
     CHECK_FALSE(bar.hierarchy.segment_crosses(path.points[i - 1], path.points[i]));
   ArcGraph whole = arc_between(2, 18);
-  CHECK(lay_longest_paths(whole, inner, 0.008) == 0);
+  CHECK(lay_longest_paths(whole, inner, {false}, 0.008) == 0);
 }
 
 TEST_CASE("Stubs and nodes on the surface are told by component") {

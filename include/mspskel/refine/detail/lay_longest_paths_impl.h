@@ -9,16 +9,23 @@
 #include "mspskel/arcs/detail/polyline_ends.h"
 #include "mspskel/arcs/detail/single_arc.h"
 #include "mspskel/base/linkage.h"
+#include "mspskel/mesh/detail/solid_moments.h"
 #include "mspskel/mesh/inner_distance.h"
 #include "mspskel/skeleton/useless_pieces.h"
+#include "mspskel/solid/detail/axis_stretch.h"
 
 namespace mspskel {
 namespace detail {
 
 class LongestPaths {
  public:
-  LongestPaths(ArcGraph& graph, InnerGraph& inner, double step)
-      : graph_(graph), surface_(inner.surface()), solid_(inner.solid()), inner_(inner), step_(step) {}
+  LongestPaths(ArcGraph& graph, InnerGraph& inner, const std::vector<bool>& shells, double step)
+      : graph_(graph),
+        surface_(inner.surface()),
+        solid_(inner.solid()),
+        inner_(inner),
+        shells_(shells),
+        step_(step) {}
 
   Index run() {
     const std::vector<Index> component = components_of_pieces(graph_, surface_);
@@ -29,7 +36,7 @@ class LongestPaths {
       if (arc.alive && component[arc.hub[0]] != kNone) length[component[arc.hub[0]]] += arc_length(arc);
     Index laid = 0;
     for (Index c = 0; c < surface_.component_count; ++c) {
-      if (twice_euler[c] != 4 || length[c] >= kLeastPieceLength * extent[c]) continue;
+      if (twice_euler[c] != 4 || length[c] >= kLeastPieceLength * extent[c] || is_vessel(c)) continue;
       auto path = longest_path(c);
       if (!path || !(length_of(*path) > length[c])) continue;
       replace_by_arc(graph_, surface_, component, c, std::move(*path));
@@ -40,6 +47,13 @@ class LongestPaths {
 
  private:
   static double length_of(const std::vector<Vector3>& points) { return arc_length({{0, 1}, points, true}); }
+
+  // In its wall any path is as good as another.
+  bool is_vessel(Index c) {
+    if (!shells_[c]) return false;
+    if (moments_.empty()) moments_ = solid_moments(surface_);
+    return detail::is_vessel(moments_[c], solid_);
+  }
 
   // The usable vertex farthest from the given one along the surface; kNone if there is no other.
   Index farthest(Index from) {
@@ -82,14 +96,17 @@ class LongestPaths {
   const SurfaceSnapshot& surface_;
   const BoundingVolumeHierarchy& solid_;
   InnerGraph& inner_;
+  const std::vector<bool>& shells_;
   const double step_;
   std::optional<SurfaceWays> ways_;
+  std::vector<SolidMoments> moments_;  // per component, once one of them is asked for
 };
 
 }  // namespace detail
 
-MSPSKEL_INLINE Index lay_longest_paths(ArcGraph& graph, detail::InnerGraph& inner, double step) {
-  return detail::LongestPaths(graph, inner, step).run();
+MSPSKEL_INLINE Index lay_longest_paths(ArcGraph& graph, detail::InnerGraph& inner,
+                                       const std::vector<bool>& shells, double step) {
+  return detail::LongestPaths(graph, inner, shells, step).run();
 }
 
 }  // namespace mspskel

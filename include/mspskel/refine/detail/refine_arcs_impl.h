@@ -11,7 +11,6 @@
 #include "mspskel/refine/lay_axes.h"
 #include "mspskel/refine/lay_longest_paths.h"
 #include "mspskel/refine/prune_branches.h"
-#include "mspskel/solid/detail/axis_stretch.h"
 #include "mspskel/solid/detail/inner_graph.h"
 #include "mspskel/solid/shells.h"
 
@@ -61,10 +60,13 @@ class ArcRefinement {
     prune();
     center(options_.centering);
     settle_strays();
-    tighten();
+    const std::vector<bool> shells = find_shells(surface_, solid_, slices_);
+    tighten(shells);
     lay();  // straight again: in a block every wall is as near, and centring goes where the noise leads
-    lay_paths();
+    lay_paths(shells);
     subdivide(graph_, 1.25 * options_.centering.step);  // rounds of centring stretch some edges
+    // What no way was found for, the later stages may have led inside all the same.
+    if (counts_.routing.unroutable > 0) counts_.routing.unroutable = count_crossing_edges(graph_, solid_);
     return counts_;
   }
 
@@ -120,20 +122,12 @@ class ArcRefinement {
     counts_.axes = lay_axes(graph_, surface_, solid_, tips_);
     keep_type("laying of axes");
   }
-  void lay_paths() {
-    // In the wall of a vessel any path is as good as another: what its axis has of the solid stays.
-    const std::vector<bool> shells = find_shells(surface_, solid_, slices_);
-    const std::vector<SolidMoments> moments = solid_moments(surface_);
-    bool only_vessels = true;
-    for (std::size_t c = 0; c < shells.size(); ++c)
-      only_vessels = only_vessels && shells[c] && is_vessel(moments[c], solid_);
-    if (only_vessels) return;
-    counts_.paths = lay_longest_paths(graph_, inner_, options_.centering.step);
+  void lay_paths(const std::vector<bool>& shells) {
+    counts_.paths = lay_longest_paths(graph_, inner_, shells, options_.centering.step);
     keep_type("laying of paths");
   }
-  void tighten() {
-    tighten_in_walls(graph_, inner_, find_shells(surface_, solid_, slices_), options_.centering.step,
-                     classes_.crossings);
+  void tighten(const std::vector<bool>& shells) {
+    tighten_in_walls(graph_, inner_, shells, options_.centering.step, classes_.crossings);
     keep_type("tightening in walls");
   }
   void prune() {

@@ -1,6 +1,7 @@
 // Where the axis of a solid runs inside it: a principal axis, or in a vessel that of its opening.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -37,7 +38,6 @@ inline std::optional<std::array<Vector3, 2>> longest_stretch(const Vector3& poin
 struct FreeDirections {
   Vector3 sum = Vector3::Zero();
   int count = 0;
-  double share = 0.0;  // of all directions
 };
 
 // Directions in which nothing lies, evenly over the sphere by the golden angle.
@@ -51,7 +51,6 @@ inline FreeDirections free_directions(const Vector3& point, const BoundingVolume
     found.sum += way;
     ++found.count;
   }
-  found.share = static_cast<double>(found.count) / kRays;
   return found;
 }
 
@@ -95,13 +94,20 @@ inline bool is_well_inside(const Vector3& x, const BoundingVolumeHierarchy& soli
   return opposite && nearest.distance >= kLeast * opposite->distance;
 }
 
-// A cup, a vase: its middle is air, and most ways from there meet the wall; beside a bent sheet half are
-// free.
+// A cup, a vase: its middle is air that opens to one side, and across the way out stands a wall all round. A
+// groove between two sheets is open at its ends as well.
 inline bool is_vessel(const SolidMoments& moments, const BoundingVolumeHierarchy& solid) {
-  constexpr double kMost = 0.4;
-  if (!moments.has_volume() || is_well_inside(moments.centroid(), solid)) return false;
-  const FreeDirections free = free_directions(moments.centroid(), solid);
-  return free.count > 0 && free.share < kMost;
+  constexpr int kRays = 360;  // the ends of a long groove are narrow to look at
+  if (!moments.has_volume()) return false;
+  const Vector3 centre = moments.centroid();
+  if (is_well_inside(centre, solid)) return false;
+  const auto opening = opening_direction(centre, solid);
+  if (!opening) return false;
+  const Vector3 u = opening->unitOrthogonal(), w = opening->cross(u);
+  const std::vector<Vector2>& horizon = even_directions(kRays);
+  return std::all_of(horizon.begin(), horizon.end(), [&](const Vector2& d) {
+    return solid.first_hit(centre, d.x() * u + d.y() * w).has_value();
+  });
 }
 
 // The axis of a solid as far as it runs inside. Of a block, whose centroid lies inside, it is the principal
