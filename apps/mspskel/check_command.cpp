@@ -96,15 +96,13 @@ int CheckCommand::run() {
   checks.topology = checks.b0 == checks.components && checks.b1 == checks.genus;
   const std::vector<UncoveredPart> uncovered =
       find_uncovered_parts(surface, solid, skeleton, CoverageOptions{}, execution_);
-  const Verdict verdict = judge(surface, certificate, uncovered);
-  const bool inside = least_inside_ < 1 ? checks.inside >= least_inside_ : checks.contained;
+  const Verdict verdict = judge(surface, certificate, uncovered, least_inside_);
   if (!json_path_.empty())
     write_file_atomically(json_path_, report_text(checks_json(checks, certificate, uncovered)));
   if (!quiet_ && json_path_ != "-") print(checks, certificate, uncovered);
   if (!verdict.failure.empty()) throw NoSkeletonError(verdict.failure);
-  if (inside) return 0;
-  throw NoSkeletonError(certificate.edges_not_inside > 0 ? verdict.warnings.front()
-                                                         : "the skeleton leaves the solid");
+  if (least_inside_ >= 1 && !checks.contained) throw NoSkeletonError("the skeleton leaves the solid");
+  return 0;
 }
 
 }  // namespace

@@ -177,21 +177,21 @@ void add_renumbered(const ExtractSettings& settings, CheckedExtraction& made) {
 Extraction extract_and_check(const ExtractSettings& settings, const Cancellation& cancellation,
                              ProgramSeconds& seconds, Terminal& terminal) {
   const Stopwatch reading;
-  MeshInput input =
-      prepare_mesh(read_polygon_soup(settings.input), settings.run.repair, settings.run.extract.execution);
+  const PolygonSoup soup = read_polygon_soup(settings.input);
+  MeshInput input = prepare_mesh(soup, settings.run.repair, settings.run.extract.execution);
   seconds.read = reading.seconds();
   settings.root.resolve(input.repair.openings);  // what is wrong with it shows before the work
   cancellation.throw_if_requested();
   if (!settings.quiet) expect(terminal.estimate(), input, settings.run.extract);
   Extraction extraction;
-  extraction.made = extract_from(std::move(input), settings.run.extract);
+  extraction.reported = !settings.report.empty() || settings.verbose || writes_report(settings);
+  extraction.made =
+      extract_checked(soup, std::move(input), settings.run,
+                      extraction.reported ? CertificateDepth::kFull : CertificateDepth::kVerdict);
   add_losses(settings, extraction.made.result);
   add_renumbered(settings, extraction.made);
-  extraction.reported = !settings.report.empty() || settings.verbose || writes_report(settings);
   if (!settings.segments.empty()) segment(settings, extraction);
   if (settings.needs_rig()) add_rig(settings, extraction);
-  certify(extraction.made, extraction.reported ? CertificateDepth::kFull : CertificateDepth::kVerdict,
-          settings.run.extract.execution);
   if (extraction.reported) extraction.facts = facts_of(settings.input, extraction.made);
   return extraction;
 }

@@ -18,7 +18,8 @@ constexpr const char* kExamples =
 
 constexpr const char* kExitStatus =
     R"(  0 done, 1 usage, 2 cannot read, 3 the mesh is not usable, 4 cannot write,
-  5 no skeleton, or one whose pieces or cycles are not the mesh's (see --keep-failed),
+  5 no skeleton, or one whose pieces or cycles are not the mesh's or that lies
+    outside it (see --keep-failed, --least-inside),
   6 time or memory limit, or interrupted.
 )";
 

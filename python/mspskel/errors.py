@@ -32,7 +32,7 @@ class WriteError(Error):
 
 
 class NoSkeletonError(Error):
-    """No skeleton, or one whose pieces or cycles are not the mesh's (``keep_failed=True`` returns it)."""
+    """No skeleton, or one whose pieces or cycles are not the mesh's or that lies outside (``keep_failed=True`` returns it)."""
 
     exit_status = 5
 

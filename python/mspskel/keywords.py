@@ -13,6 +13,7 @@ class OptionKeywords(TypedDict, total=False):
     threads: float
     seed: float
     time_limit: float
+    least_inside: float
     keep_failed: bool
     repair: Union[bool, str]
     components: Union[float, str]

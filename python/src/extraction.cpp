@@ -67,8 +67,8 @@ std::unique_ptr<Extraction> extract(const PolygonSoup& soup, const std::string& 
     const Stopwatch total;
     cli::MeshInput input = cli::prepare_mesh(soup, options.run.repair);
     extraction->seconds.read = total.seconds();
-    extraction->made = cli::extract_from(std::move(input), options.run.extract);
-    certify(extraction->made, cli::CertificateDepth::kVerdict, options.run.extract.execution);
+    extraction->made =
+        cli::extract_checked(soup, std::move(input), options.run, cli::CertificateDepth::kVerdict);
     if (!extraction->made.failure.empty() && !options.keep_failed)
       throw NoSkeletonError(extraction->made.failure + " (keep_failed=True returns it all the same)");
     extraction->skeleton = extraction->made.input.of_file(extraction->made.result.skeleton);

@@ -17,19 +17,11 @@ void end_at_open_ends(const MeshInput& input, const ExtractOptions& options, Ext
                               " of the open ends: no way there is straight");
 }
 
-}  // namespace
+double least_inside(const RunOptions& run) { return run.extract.refinement.enabled ? run.least_inside : 0.0; }
 
-CheckedExtraction extract_from(MeshInput input, const ExtractOptions& options) {
-  CheckedExtraction made;
-  made.input = std::move(input);
-  made.result = extract_skeleton(made.input.built.mesh, options);
-  end_at_open_ends(made.input, options, made.result);
-  std::vector<std::string>& warnings = made.result.warnings;
-  warnings.insert(warnings.begin(), made.input.built.warnings.begin(), made.input.built.warnings.end());
-  return made;
-}
-
-void certify(CheckedExtraction& made, CertificateDepth depth, const Execution& execution) {
+// Fills in certificate, uncovered parts and failure, adds what they warn of, and the seconds that it took.
+void certify(const RunOptions& run, CertificateDepth depth, CheckedExtraction& made) {
+  const Execution& execution = run.extract.execution;
   const Stopwatch checking;
   ExtractResult& result = made.result;
   if (!result.solid)
@@ -38,9 +30,42 @@ void certify(CheckedExtraction& made, CertificateDepth depth, const Execution& e
       certify(result.surface, result.cocycles, *result.solid, result.skeleton, depth, execution);
   made.uncovered = find_uncovered_parts(result.surface, *result.solid, result.skeleton, {}, execution);
   result.seconds.emplace_back("checks", checking.seconds());
-  Verdict verdict = judge(result.surface, made.certificate, made.uncovered);
+  Verdict verdict = judge(result.surface, made.certificate, made.uncovered, least_inside(run));
   result.warnings.insert(result.warnings.end(), verdict.warnings.begin(), verdict.warnings.end());
   made.failure = std::move(verdict.failure);
+}
+
+CheckedExtraction extract_from(MeshInput input, const RunOptions& run, CertificateDepth depth) {
+  CheckedExtraction made;
+  made.input = std::move(input);
+  made.result = extract_skeleton(made.input.built.mesh, run.extract);
+  end_at_open_ends(made.input, run.extract, made.result);
+  std::vector<std::string>& warnings = made.result.warnings;
+  warnings.insert(warnings.begin(), made.input.built.warnings.begin(), made.input.built.warnings.end());
+  certify(run, depth, made);
+  return made;
+}
+
+// A wrap has no open ends any more, and is no better than another wrap.
+bool may_be_wrapped(const CheckedExtraction& made, const RunOptions& run) {
+  return run.repair.wrap_mode == WrapMode::kAuto && made.certificate.inside < least_inside(run) &&
+         !made.input.wrapped && made.input.repair.openings.empty();
+}
+
+}  // namespace
+
+CheckedExtraction extract_checked(const PolygonSoup& soup, MeshInput input, const RunOptions& run,
+                                  CertificateDepth depth) {
+  CheckedExtraction made = extract_from(std::move(input), run, depth);
+  if (!may_be_wrapped(made, run)) return made;
+  std::optional<MeshInput> wrapped = wrap_mesh(soup, run.repair, run.extract.execution);
+  if (!wrapped) return made;
+  CheckedExtraction again = extract_from(std::move(*wrapped), run, depth);
+  if (!again.failure.empty()) return made;
+  std::vector<std::string>& warnings = again.result.warnings;
+  warnings.insert(warnings.begin(), "of the mesh's own surface, " + made.failure);
+  write_surface(again.input, run.repair);
+  return again;
 }
 
 Json facts_of(const std::string& file, const CheckedExtraction& made) {

@@ -9,6 +9,7 @@
 #include "mspskel/extract_skeleton.h"
 #include "mspskel/limbs/coverage.h"
 #include "report.h"
+#include "run_options.h"
 
 namespace mspskel::cli {
 
@@ -20,13 +21,13 @@ struct CheckedExtraction {
   std::string failure;  // of the certificate, a sentence; empty: none
 };
 
-// The skeleton, which ends at the open ends of the input. The input's warnings come first among the result's.
-// Throws as extract_skeleton does.
-CheckedExtraction extract_from(MeshInput input, const ExtractOptions& options);
-
-// Fills in certificate, uncovered parts and failure, adds what they warn of, and the seconds that it took.
-// Throws Cancelled.
-void certify(CheckedExtraction& made, CertificateDepth depth, const Execution& execution = {});
+// The skeleton of an input that was prepared from the soup, with its certificate. It ends at the open ends of
+// the input; the input's warnings come first among the result's. Where too much of it is outside
+// (RunOptions::least_inside), the surface does not say where its solid is: limbs that rounding has pressed
+// flat, sheets folded through each other. Then the soup is wrapped, unless the settings decide otherwise, and
+// the wrap's skeleton is taken if it passes. Throws as extract_skeleton and prepare_mesh do.
+CheckedExtraction extract_checked(const PolygonSoup& soup, MeshInput input, const RunOptions& run,
+                                  CertificateDepth depth);
 
 // make_report with what mending did.
 Json facts_of(const std::string& file, const CheckedExtraction& made);

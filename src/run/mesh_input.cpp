@@ -168,7 +168,19 @@ MeshInput prepare_mesh(const PolygonSoup& soup, const RepairSettings& settings, 
   }
   if (settings.unite && !input.wrapped) unite(input, execution);
   input.built.warnings.insert(input.built.warnings.begin(), soup.warnings.begin(), soup.warnings.end());
+  write_surface(input, settings);
+  return input;
+}
+
+void write_surface(const MeshInput& input, const RepairSettings& settings) {
   if (!settings.write_mesh.empty()) write_mesh(settings.write_mesh, input.built.mesh);
+}
+
+std::optional<MeshInput> wrap_mesh(const PolygonSoup& soup, const RepairSettings& settings,
+                                   const Execution& execution) {
+  MeshInput input = wrap(soup, settings, execution);
+  if (!input.wrapped->encloses) return std::nullopt;
+  input.built.warnings.insert(input.built.warnings.begin(), soup.warnings.begin(), soup.warnings.end());
   return input;
 }
 

@@ -145,6 +145,8 @@ void RunOptionTable::add_general(CommandLine& line) {
   line.number("-t,--threads", target_.extract.execution.threads, {0, 4096}, "0: as many as the machine has");
   line.number("--seed", seed_, kSeedRange, "of the directions in the cones");
   line.number("--time-limit", target_.time_limit, {0, 1e9}, "seconds; 0: none");
+  line.number("--least-inside", target_.least_inside, {0, 1},
+              "share of the length that must be inside, of arcs that are refined");
 }
 
 void RunOptionTable::add_stages(CommandLine& line) {

@@ -15,7 +15,8 @@ namespace mspskel::cli {
 struct RunOptions {
   ExtractOptions extract;
   RepairSettings repair;
-  double time_limit = 0;  // seconds; 0: none
+  double time_limit = 0;      // seconds; 0: none
+  double least_inside = 0.9;  // share of the refined skeleton's length; below it there is none
 };
 
 // Adds the options to a command line that is to be parsed with `arguments`, in three steps between which the

@@ -1,6 +1,7 @@
 #include "verdict.h"
 
 #include <cstdio>
+#include <utility>
 
 #include "mspskel/base/counted.h"
 
@@ -34,9 +35,16 @@ std::string what_is_uncovered(const std::vector<UncoveredPart>& parts) {
 }  // namespace
 
 Verdict judge(const SurfaceSnapshot& surface, const TopologyCertificate& certificate,
-              const std::vector<UncoveredPart>& uncovered) {
+              const std::vector<UncoveredPart>& uncovered, double least_inside) {
   Verdict verdict;
-  if (certificate.edges_not_inside > 0) verdict.warnings.push_back(what_is_outside(surface, certificate));
+  if (certificate.edges_not_inside > 0) {
+    const bool too_much = least_inside >= 1 || certificate.inside < least_inside;
+    std::string outside = what_is_outside(surface, certificate);
+    if (too_much)
+      verdict.failure = std::move(outside);
+    else
+      verdict.warnings.push_back(std::move(outside));
+  }
   if (!uncovered.empty()) verdict.warnings.push_back(what_is_uncovered(uncovered));
   if (certificate.verdict == TopologyVerdict::kFailed)
     verdict.failure = "the skeleton's topology is not the solid's: " + certificate.reason;

@@ -15,8 +15,10 @@ struct Verdict {
   std::string failure;  // a sentence; empty if the skeleton may pass
 };
 
-// `surface` is what was certified; places in the sentences are in model units.
+// `surface` is what was certified; places in the sentences are in model units. Fails what the certificate
+// fails, and a skeleton of whose length a smaller share than `least_inside` is inside; of 1, any edge
+// outside.
 Verdict judge(const SurfaceSnapshot& surface, const TopologyCertificate& certificate,
-              const std::vector<UncoveredPart>& uncovered);
+              const std::vector<UncoveredPart>& uncovered, double least_inside);
 
 }  // namespace mspskel::cli

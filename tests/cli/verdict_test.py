@@ -120,6 +120,31 @@ class Extract(ProgramTest):
         self.assertEqual(self.succeed(mesh, "-"), self.succeed(mesh, "-", "--keep-failed"))
 
 
+class Crushed(ProgramTest):
+    """Coordinates rounded to a twentieth of the extent press thin arms flat: there is no solid in them."""
+
+    def crushed(self):
+        lines = (self.folder / self.sample("octoped", 3000)).read_text().split("\n")
+        count = int(lines[1].split()[0])
+        points = [[float(x) for x in line.split()] for line in lines[2:2 + count]]
+        step = max(max(axis) - min(axis) for axis in zip(*points)) / 20
+        rounded = [" ".join(repr(round(x / step) * step) for x in point) for point in points]
+        return self.write("crushed.off", "\n".join([*lines[:2], *rounded, *lines[2 + count:]]))
+
+    def test_is_wrapped_where_its_skeleton_is_outside(self):
+        result = self.run_program(self.crushed(), "a.skel", "--report", "r.json", "--write-mesh", "w.off")
+        self.assertEqual(result.returncode, DONE, result.stderr)
+        self.assertRegex(result.stderr.decode(), "of the mesh's own surface, .* outside the solid")
+        report = json.loads((self.folder / "r.json").read_text())
+        self.assertEqual((report["repair"]["wrapped"], report["checks"]["inside"]), (True, 1))
+        self.assertIn(b"100 % of the length", self.run_program("check", "w.off", "a.skel").stdout)
+
+    def test_is_refused_where_it_may_not_be_wrapped(self):
+        mesh = self.crushed()
+        self.assertIn("outside the solid", self.fail_with(NO_SKELETON, mesh, "a.skel", "-q", "--wrap", "never"))
+        self.assertEqual(self.run_program(mesh, "a.skel", "-q", "--wrap", "never", "--least-inside", 0).returncode, DONE)
+
+
 class Page(ProgramTest):
     """What is warned of has its places on the page."""
 
