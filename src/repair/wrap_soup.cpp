@@ -59,7 +59,9 @@ class Wrapping {
   Wrapping(const PolygonSoup& soup, const WrapOptions& options, const Execution& execution)
       : soup_(soup), options_(options), execution_(execution) {
     Index degenerate = 0;
-    faces_ = detail::clean_faces(soup, detail::weld_equal_points(soup.points), degenerate);
+    const std::vector<Index> point_of = detail::weld_equal_points(soup.points);
+    faces_ = detail::clean_faces(soup, point_of, degenerate);
+    if (faces_.count() > 0 && degenerate > 0) add_lines(point_of);
     lay_grid();
   }
 
@@ -88,6 +90,21 @@ class Wrapping {
   Vector3 place(Index node) const { return grid_.place(node); }
 
  private:
+  // Polygons that are pressed to lines still join what lies at their ends: as triangles of two corners.
+  void add_lines(const std::vector<Index>& point_of) {
+    std::vector<char> cleaned(soup_.polygon_count(), 0);
+    for (const Index f : faces_.polygon) cleaned[f] = 1;
+    const auto known = [&](Index v) {
+      return v >= 0 && v < static_cast<Index>(soup_.points.size()) && soup_.points[v].allFinite();
+    };
+    for (Index f = 0; f < static_cast<Index>(cleaned.size()); ++f)
+      for (Index i = soup_.begin[f]; !cleaned[f] && i + 1 < soup_.begin[f + 1]; ++i) {
+        const Index from = soup_.corners[i], to = soup_.corners[i + 1];
+        if (known(from) && known(to) && point_of[from] != point_of[to])
+          faces_.add(point_of[from], point_of[to], point_of[to], f);
+      }
+  }
+
   void step(double fraction) const { report_progress(execution_.progress, "wrapping", fraction); }
 
   detail::Triangle triangle(Index f) const {

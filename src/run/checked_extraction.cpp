@@ -58,9 +58,8 @@ CheckedExtraction extract_checked(const PolygonSoup& soup, MeshInput input, cons
                                   CertificateDepth depth) {
   CheckedExtraction made = extract_from(std::move(input), run, depth);
   if (!may_be_wrapped(made, run)) return made;
-  std::optional<MeshInput> wrapped = wrap_mesh(soup, run.repair, run.extract.execution);
-  if (!wrapped) return made;
-  CheckedExtraction again = extract_from(std::move(*wrapped), run, depth);
+  MeshInput wrapped = wrap_mesh(soup, run.repair, run.extract.execution);
+  CheckedExtraction again = extract_from(std::move(wrapped), run, depth);
   if (!again.failure.empty()) return made;
   std::vector<std::string>& warnings = again.result.warnings;
   warnings.insert(warnings.begin(), "of the mesh's own surface, " + made.failure);

@@ -176,10 +176,8 @@ void write_surface(const MeshInput& input, const RepairSettings& settings) {
   if (!settings.write_mesh.empty()) write_mesh(settings.write_mesh, input.built.mesh);
 }
 
-std::optional<MeshInput> wrap_mesh(const PolygonSoup& soup, const RepairSettings& settings,
-                                   const Execution& execution) {
+MeshInput wrap_mesh(const PolygonSoup& soup, const RepairSettings& settings, const Execution& execution) {
   MeshInput input = wrap(soup, settings, execution);
-  if (!input.wrapped->encloses) return std::nullopt;
   input.built.warnings.insert(input.built.warnings.begin(), soup.warnings.begin(), soup.warnings.end());
   return input;
 }

@@ -59,10 +59,8 @@ struct MeshInput {
 MeshInput prepare_mesh(const PolygonSoup& soup, const RepairSettings& settings,
                        const Execution& execution = {});
 
-// The mesh wrapped as settings.wrapping says, whatever its surface is; nothing if the wrap would enclose no
-// more than walls. Throws MeshError.
-std::optional<MeshInput> wrap_mesh(const PolygonSoup& soup, const RepairSettings& settings,
-                                   const Execution& execution = {});
+// The mesh wrapped as settings.wrapping says, whatever its surface is. Throws MeshError.
+MeshInput wrap_mesh(const PolygonSoup& soup, const RepairSettings& settings, const Execution& execution = {});
 
 // To settings.write_mesh, if there is such a file. Throws WriteError.
 void write_surface(const MeshInput& input, const RepairSettings& settings);

@@ -16,7 +16,7 @@ std::string place(const Vector3& x) {
 
 std::string what_is_outside(const SurfaceSnapshot& surface, const TopologyCertificate& certificate) {
   char share[32];
-  std::snprintf(share, sizeof share, "%.2g %%", 100 * (1 - certificate.inside));
+  std::snprintf(share, sizeof share, "%.3g %%", 100 * (1 - certificate.inside));
   std::string text = share + std::string(" of the skeleton's length is outside the solid, on ") +
                      counted(certificate.edges_not_inside, "edge");
   if (certificate.outside_at) text += ", first at " + place(surface.frame.to_model(*certificate.outside_at));

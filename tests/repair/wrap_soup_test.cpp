@@ -84,6 +84,18 @@ TEST_CASE("Solids farther apart than the gap stay apart, nearer ones become one"
   CHECK(shape_of(wrap_soup(two, options).soup).components == 1);
 }
 
+TEST_CASE("Solids with a limb between them that is pressed to a line are one") {
+  SampleOptions options;
+  options.resolution = 500;
+  const PolygonSoup ball = make_sample("sphere", options);
+  PolygonSoup both = joined(ball, moved(ball, 1, {6, 0, 0}));
+  CHECK(wrap_soup(both).solids == 2);
+  const auto first = static_cast<Index>(both.points.size());
+  both.points.insert(both.points.end(), {{1, 0, 0}, {5, 0, 0}, {5, 0, 0}});
+  both.add_triangle(first, first + 1, first + 2);
+  CHECK(wrap_soup(both).solids == 1);
+}
+
 TEST_CASE("What wraps a mesh is moved and scaled along with it") {
   const PolygonSoup loose = loose_faces("capsule", 300, 0.1);
   const WrappedSoup one = wrap_soup(loose), other = wrap_soup(moved(loose, 1024, {0, 0, 0}));
