@@ -1,6 +1,8 @@
 // mspskel sample NAME [OUT]: closed test models with known answers.
 #include "commands.h"
+#include "distinct_files.h"
 #include "mspskel/io/write_mesh.h"
+#include "mspskel/io/write_skeleton.h"
 #include "mspskel/samples/samples.h"
 
 namespace mspskel::cli {
@@ -13,6 +15,9 @@ std::string sample_list() {
             info.description + "\n";
     if (!info.count_of.empty()) text += std::string(20, ' ') + "--count: " + info.count_of + "\n";
     if (!info.ratio_of.empty()) text += std::string(20, ' ') + "--ratio: " + info.ratio_of + "\n";
+    if (info.has_sides) text += std::string(20, ' ') + "--side-x, --side-y, --side-z: its lengths\n";
+    if (info.has_sections) text += std::string(20, ' ') + "--section: of its bars\n";
+    if (!info.has_truth) text += std::string(20, ' ') + "no --truth: its skeleton is a matter of taste\n";
   }
   return text;
 }
@@ -36,17 +41,33 @@ class SampleCommand : public Command {
                  "random displacement of the vertices, in mean edge lengths");
     table.number("--count", options_.count, {-1, 1e6}, "what the list below says; -1: the sample's own");
     table.number("--ratio", options_.ratio, {0, 1e6}, "what the list below says; 0: the sample's own");
+    for (Eigen::Index k = 0; k < 3; ++k)
+      table.number(std::string("--side-") + "xyz"[k], options_.sides[k], {0, 1e6},
+                   "of a box or ellipsoid; 0: the sample's own");
+    table.choice("--section", options_.section,
+                 {{"own", Section::kOwn}, {"square", Section::kSquare}, {"round", Section::kRound}},
+                 "of the bars, where the list below says so");
+    table.text("--truth", truth_, "FILE",
+               "the skeleton that the sample is made round (.skel .obj .ply .json .swc .vtp .graphml .cgal)");
     table.number("--seed", options_.seed, kSeedRange, "of the places of the vertices");
     table.section({"Samples", sample_list()});
   }
 
   int run() override {
-    write_mesh(output_.empty() ? name_ + ".off" : output_, make_sample(name_, options_));
+    const std::string output = output_.empty() ? name_ + ".off" : output_;
+    refuse_shared_files({}, {{output, "the mesh"}, {truth_, "the skeleton"}});
+    CurveSkeleton truth;
+    if (!truth_.empty()) {
+      skeleton_format_of(truth_);
+      truth = sample_truth(name_, options_);
+    }
+    write_mesh(output, make_sample(name_, options_));
+    if (!truth_.empty()) write_skeleton(truth_, truth);
     return 0;
   }
 
  private:
-  std::string name_, output_;
+  std::string name_, output_, truth_;
   SampleOptions options_;
 };
 

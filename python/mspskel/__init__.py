@@ -32,7 +32,7 @@ from .errors import (  # noqa: E402
     WriteError,
 )
 from .options import Options  # noqa: E402
-from .sample import sample, sample_names  # noqa: E402
+from .sample import sample, sample_names, sample_truth  # noqa: E402
 from .skeleton import Skeleton, read_skeleton  # noqa: E402
 
 __all__ = [
@@ -50,6 +50,7 @@ __all__ = [
     "read_skeleton",
     "sample",
     "sample_names",
+    "sample_truth",
     "skeletonize",
     "stages",
 ]

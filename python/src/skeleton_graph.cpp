@@ -1,9 +1,11 @@
 // CurveSkeleton: what writers, checks and trees are made from.
+#include <nanobind/stl/array.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
 #include <algorithm>
+#include <array>
 
 #include "arrays.h"
 #include "bindings.h"
@@ -83,21 +85,41 @@ void bind_files(nb::module_& module) {
       nb::arg("graph"), nb::arg("path"));
 }
 
-PolygonSoup sample_of(const std::string& name, Index resolution, double jitter, std::uint64_t seed,
-                      Index count, double ratio) {
-  SampleOptions options;
-  options.resolution = resolution;
-  options.jitter = jitter;
-  options.seed = seed;
-  options.count = count;
-  options.ratio = ratio;
-  const nb::gil_scoped_release unlocked;
-  return make_sample(name, options);
+// The word of --section on the command line.
+Section section_of(const std::string& word) {
+  if (word == "own") return Section::kOwn;
+  if (word == "square") return Section::kSquare;
+  if (word == "round") return Section::kRound;
+  throw UsageError("section must be own, square or round, not '" + word + "'");
+}
+
+template <class Result>
+auto of_sample(Result (*make)(const std::string&, const SampleOptions&)) {
+  return [make](const std::string& name, Index resolution, double jitter, std::uint64_t seed, Index count,
+                double ratio, const std::array<double, 3>& sides, const std::string& section) {
+    SampleOptions options;
+    options.resolution = resolution;
+    options.jitter = jitter;
+    options.seed = seed;
+    options.count = count;
+    options.ratio = ratio;
+    options.sides = {sides[0], sides[1], sides[2]};
+    options.section = section_of(section);
+    const nb::gil_scoped_release unlocked;
+    return make(name, options);
+  };
+}
+
+template <class Function>
+void define_of_sample(nb::module_& module, const char* name, const Function& function) {
+  module.def(name, function, nb::arg("name"), nb::arg("resolution") = 0, nb::arg("jitter") = 0.0,
+             nb::arg("seed") = 1, nb::arg("count") = kNone, nb::arg("ratio") = 0.0,
+             nb::arg("sides") = std::array<double, 3>{0, 0, 0}, nb::arg("section") = "own");
 }
 
 void bind_samples(nb::module_& module) {
-  module.def("make_sample", &sample_of, nb::arg("name"), nb::arg("resolution") = 0, nb::arg("jitter") = 0.0,
-             nb::arg("seed") = 1, nb::arg("count") = kNone, nb::arg("ratio") = 0.0);
+  define_of_sample(module, "make_sample", of_sample(&make_sample));
+  define_of_sample(module, "sample_truth", of_sample(&sample_truth));
   module.def("sample_names", [] {
     std::vector<std::string> names;
     for (const SampleInfo& info : list_samples()) names.push_back(info.name);

@@ -94,3 +94,12 @@ def test_plot_with_matplotlib(ring, monkeypatch):
     axes = ring.plot()
     low, high = axes.get_xlim()
     assert low <= ring.vertices[:, 0].min() and high >= ring.vertices[:, 0].max()
+
+
+def test_the_truth_of_a_sample():
+    truth = mspskel.sample_truth("table", count=3, section="round")
+    assert len(truth.terminals) == 3
+    with pytest.raises(mspskel.UsageError, match="no defined skeleton"):
+        mspskel.sample_truth("sphere")
+    box = mspskel.sample("box", sides=(1, 2, 8))[0]
+    assert np.allclose(np.ptp(box, axis=0), (1, 2, 8))

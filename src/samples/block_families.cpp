@@ -3,18 +3,13 @@
 #include <memory>
 
 #include "families.h"
+#include "mspskel/samples/blocks.h"
 #include "mspskel/samples/skin_graph.h"
 #include "noise.h"
 
 namespace mspskel::detail {
 
 namespace {
-
-// Signed distance to a box round the origin with the given half sides, its edges rounded.
-double rounded_box(const Vector3& p, const Vector3& half, double rounding) {
-  const Vector3 q = p.cwiseAbs() - (half - Vector3::Constant(rounding));
-  return q.cwiseMax(0.0).norm() + std::min(q.maxCoeff(), 0.0) - rounding;
-}
 
 double smooth_maximum(double a, double b, double blend) { return -smooth_minimum(-a, -b, blend); }
 
@@ -50,7 +45,7 @@ Family plate() {
     solid.high = {half_x, half_y, kHalfThickness};
     solid.low = -solid.high;
     solid.value = [=](const Vector3& p) {
-      double outline = rounded_box({p.x(), p.y(), 0}, {half_x, half_y, 1}, 0.3);
+      double outline = rounded_box_distance({p.x(), p.y(), 0}, {half_x, half_y, 1}, 0.3);
       for (const Hole& hole : *holes)
         outline = std::max(outline, hole.radius - std::hypot(p.x() - hole.x, p.y() - hole.y));
       const double a = outline + kRounding, b = std::abs(p.z()) - kHalfThickness + kRounding;
@@ -137,7 +132,7 @@ Family knotted_tunnel() {
     solid.low = -half;
     solid.high = half;
     solid.value = [=](const Vector3& p) {
-      const double box = rounded_box(p, half, 0.4);
+      const double box = rounded_box_distance(p, half, 0.4);
       return box > 0.5 ? box : smooth_maximum(box, -tunnel.value(p), 0.2);
     };
     return polygonise(solid, o.resolution, std::min(0.6 * radius, 0.3));

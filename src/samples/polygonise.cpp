@@ -6,6 +6,7 @@
 
 #include "mspskel/base/error.h"
 #include "mspskel/samples/shapes.h"
+#include "surface_area.h"
 
 namespace mspskel {
 
@@ -128,15 +129,6 @@ class March {
   PolygonSoup soup_;
 };
 
-double area(const PolygonSoup& soup) {
-  double sum = 0;
-  for (std::size_t c = 0; c < soup.corners.size(); c += 3) {
-    const Vector3& a = soup.points[soup.corners[c]];
-    sum += (soup.points[soup.corners[c + 1]] - a).cross(soup.points[soup.corners[c + 2]] - a).norm() / 2;
-  }
-  return sum;
-}
-
 // Whether a face looks against the function's growth at all three corners together: where triangles are too
 // large for a thin part, remeshing can turn one over.
 bool is_folded(const PolygonSoup& soup, const ImplicitSolid& solid, double edge) {
@@ -171,7 +163,7 @@ PolygonSoup polygonise(const ImplicitSolid& solid, Index vertices, double thinne
     soup = march_tetrahedra(solid, cell);
     if (soup.points.empty()) throw UsageError("the resolution is too low to see the solid");
     // Remeshing ends with edges a little shorter than asked for.
-    options.edge = 1.08 * edge_for_vertices(area(soup), vertices);
+    options.edge = 1.08 * edge_for_vertices(detail::surface_area(soup), vertices);
     const double wanted = std::min(thinnest, options.edge);
     if (wanted > 0.75 * cell) break;
     cell = wanted;

@@ -1,10 +1,20 @@
 #include <cmath>
 
 #include "families.h"
+#include "mspskel/base/error.h"
+#include "truth.h"
 
 namespace mspskel::detail {
 
 namespace {
+
+// Of a solid of revolution from z = -length / 2 to length / 2.
+CurveSkeleton upright_axis(double length, double half_width) {
+  if (length < 3 * half_width)
+    throw UsageError(
+        "a solid that is not half as long again as wide has no defined skeleton; use a larger --ratio");
+  return axis_between({0, 0, -length / 2}, {0, 0, length / 2}, half_width);
+}
 
 Family sphere() {
   return {facts("sphere", "unit sphere", 0, kNone, 1000, 20),
@@ -18,7 +28,8 @@ Family capsule() {
           [](const SampleOptions& o) {
             return make_capsule(1, o.ratio, tessellation(2 * kPi * o.ratio + 4 * kPi, o));
           },
-          {}};
+          {},
+          [](const SampleOptions& o) { return upright_axis(o.ratio + 2, 1); }};
 }
 
 Family tube() {
@@ -27,7 +38,8 @@ Family tube() {
           [](const SampleOptions& o) {
             return make_tube(1, o.ratio, tessellation(2 * kPi * o.ratio + 2 * kPi, o));
           },
-          {}};
+          {},
+          [](const SampleOptions& o) { return upright_axis(o.ratio, 1); }};
 }
 
 Family prism() {
@@ -41,7 +53,8 @@ Family prism() {
                             "sides", 6, 3, 100),
                  "height / corner distance", 8, 0.1, 100),
       make,
-      {}};
+      {},
+      [](const SampleOptions& o) { return upright_axis(o.ratio, std::cos(kPi / o.count)); }};
 }
 
 Family torus() {
@@ -49,7 +62,11 @@ Family torus() {
       with_ratio(facts("torus", "torus of major radius 1", 1, 0, 2000, 60), "minor radius / major radius",
                  0.3, 0.02, 0.96),
       [](const SampleOptions& o) { return make_torus(1, o.ratio, tessellation(4 * kPi * kPi * o.ratio, o)); },
-      {}};
+      {},
+      [](const SampleOptions& o) {
+        const auto circle = [](double u) { return Vector3(std::cos(2 * kPi * u), std::sin(2 * kPi * u), 0); };
+        return closed_curve(circle, o.ratio, 120);
+      }};
 }
 
 Family bowl() {

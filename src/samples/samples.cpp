@@ -41,6 +41,18 @@ SampleInfo with_ratio(SampleInfo info, const char* of, double value, double leas
   return info;
 }
 
+SampleInfo with_sides(SampleInfo info, const Vector3& sides) {
+  info.has_sides = true;
+  info.sides = sides;
+  return info;
+}
+
+SampleInfo with_sections(SampleInfo info, Section section) {
+  info.has_sections = true;
+  info.section = section;
+  return info;
+}
+
 SampleInfo with_count(SampleInfo info, const char* of, Index value, Index least, Index most) {
   info.count_of = of;
   info.count = value;
@@ -57,7 +69,7 @@ const std::vector<Family>& families() {
   static const std::vector<Family> all = [] {
     std::vector<Family> list;
     for (const auto& part : {detail::ring_families(), detail::knot_families(), detail::block_families(),
-                             detail::skin_families()})
+                             detail::skin_families(), detail::bar_families()})
       list.insert(list.end(), part.begin(), part.end());
     std::sort(list.begin(), list.end(),
               [](const Family& a, const Family& b) { return a.info.name < b.info.name; });
@@ -112,11 +124,31 @@ void complete_ratio(const SampleInfo& info, SampleOptions& options) {
     out_of_range(info, "ratio (" + info.ratio_of + ")", number(info.least_ratio), number(info.most_ratio));
 }
 
+void complete_sides(const SampleInfo& info, SampleOptions& options) {
+  if (!info.has_sides && !options.sides.isZero(0)) throw UsageError("sample " + info.name + " has no sides");
+  if (!info.has_sides) return;
+  for (Eigen::Index k = 0; k < 3; ++k)
+    if (options.sides[k] == 0) options.sides[k] = info.sides[k];
+  const double least = options.sides.minCoeff(), most = options.sides.maxCoeff();
+  if (!(least > 0) || !std::isfinite(most) || most > 10 * least)
+    throw UsageError("sides of sample " + info.name +
+                     " must be positive, the longest at most 10 times the shortest");
+}
+
+void complete_section(const SampleInfo& info, SampleOptions& options) {
+  if (options.section != Section::kOwn && !info.has_sections)
+    throw UsageError("sample " + info.name + " has no choice of section");
+  if (options.section == Section::kOwn) options.section = info.section;
+}
+
 Order complete(const Family& family, const SampleOptions& options) {
   constexpr Index kMostVertices = 10'000'000;
   Order order{&family, family.info, options};
+  order.info.has_truth = static_cast<bool>(family.truth);
   complete_count(order.info, order.options);
   complete_ratio(order.info, order.options);
+  complete_sides(order.info, order.options);
+  complete_section(order.info, order.options);
   if (family.adapt) family.adapt(order.info, order.options);
   Index& resolution = order.options.resolution;
   if (resolution == 0) resolution = order.info.resolution;
@@ -191,6 +223,13 @@ PolygonSoup make_sample(const std::string& name, const SampleOptions& options) {
                      " is too low for sample " + name + "; use a larger --resolution");
   if (order.options.jitter > 0) jitter(soup, order.options.jitter, order.options.seed);
   return soup;
+}
+
+CurveSkeleton sample_truth(const std::string& name, const SampleOptions& options) {
+  const Order order = complete(find_family(name), options);
+  if (!order.family->truth)
+    throw UsageError("sample " + name + " has no defined skeleton; mspskel sample --help says which have");
+  return order.family->truth(order.options);
 }
 
 }  // namespace mspskel

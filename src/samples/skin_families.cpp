@@ -3,6 +3,7 @@
 #include "families.h"
 #include "mspskel/samples/skin_graph.h"
 #include "noise.h"
+#include "truth.h"
 
 namespace mspskel::detail {
 
@@ -18,21 +19,36 @@ Index grow(BallGraph& graph, Index from, const std::vector<BallNode>& nodes) {
   return from;
 }
 
+using BuildGraph = BallGraph (*)(const SampleOptions&);
+
+// The skin of a graph, which is its skeleton too.
+Family skin_family(const SampleInfo& info, BuildGraph build,
+                   const std::function<void(SampleInfo&, const SampleOptions&)>& adapt = {}) {
+  return {info, [build](const SampleOptions& o) { return skin_graph(build(o), o.resolution); }, adapt,
+          [build](const SampleOptions& o) { return truth_of(build(o)); }};
+}
+
+// The same with z upward in the graph, y in the model.
+Family standing(const Family& family) {
+  return {family.info, [make = family.make](const SampleOptions& o) { return y_upward(make(o)); },
+          family.adapt, [truth = family.truth](const SampleOptions& o) { return y_upward(truth(o)); }};
+}
+
 Family y_tube() {
-  const auto make = [](const SampleOptions& o) {
+  const auto build = [](const SampleOptions&) {
     BallGraph graph;
     graph.blend = 0.3;
     graph.nodes.push_back({{0, 0, 0}, 0.6});
     grow(graph, 0, {{{0.1, 0.2, -3.4}, 0.6}});
     grow(graph, 0, {{{2.3, -0.1, 2.2}, 0.55}});
     grow(graph, 0, {{{-2.0, 0.1, 2.9}, 0.5}});
-    return skin_graph(graph, o.resolution);
+    return graph;
   };
-  return {facts("y-tube", "three tubes that meet", 0, 3, 2000, 200), make, {}};
+  return skin_family(facts("y-tube", "three tubes that meet", 0, 3, 2000, 200), build);
 }
 
 Family quadruped() {
-  const auto make = [](const SampleOptions& o) {
+  const auto build = [](const SampleOptions&) {
     BallGraph g;
     g.blend = 0.25;
     g.nodes = {{{-2.0, 0, 0.05}, 0.72}, {{-0.4, 0.02, -0.08}, 0.68}, {{1.2, 0, 0.05}, 0.74}};
@@ -57,16 +73,16 @@ Family quadruped() {
       grow(g, nape,
            {{{2.5, 0.06 + 0.24 * side, 1.95}, 0.15}, {{2.42, 0.08 + 0.34 * side, 2.45 + 0.05 * side}, 0.11}});
     grow(g, 0, {{{-2.75, -0.05, 0.4}, 0.2}, {{-3.4, -0.15, 0.1}, 0.15}, {{-3.75, -0.3, -0.7}, 0.13}});
-    return y_upward(skin_graph(g, o.resolution));
+    return g;
   };
-  return {facts("quadruped", "four-legged creature: legs, snout, two ears and a tail round a given skeleton",
-                0, 8, 5000, 2500),
-          make,
-          {}};
+  return standing(skin_family(
+      facts("quadruped", "four-legged creature: legs, snout, two ears and a tail round a given skeleton", 0,
+            8, 5000, 2500),
+      build));
 }
 
 Family octoped() {
-  const auto make = [](const SampleOptions& o) {
+  const auto build = [](const SampleOptions&) {
     BallGraph g;
     g.blend = 0.2;
     g.nodes = {{{0, 0, 0}, 0.75}};
@@ -84,10 +100,10 @@ Family octoped() {
       }
       grow(g, 0, nodes);
     }
-    return y_upward(skin_graph(g, o.resolution));
+    return g;
   };
-  return {
-      facts("octoped", "eight curled arms and a head round a given skeleton", 0, 9, 6000, 2500), make, {}};
+  return standing(skin_family(
+      facts("octoped", "eight curled arms and a head round a given skeleton", 0, 9, 6000, 2500), build));
 }
 
 // A scaffold on a torus: 3 rails wound once round the tube while they go round the axis, tied together in
@@ -97,7 +113,7 @@ Family heptoroid() {
   const SampleInfo info = with_count(
       facts("heptoroid", "twisted scaffold on a torus, 22 handles for 7 sectors", 22, 0, 8000, 3000),
       "sectors", 7, 4, 40);
-  const auto make = [](const SampleOptions& o) {
+  const auto build = [](const SampleOptions& o) {
     BallGraph g;
     g.blend = 0.15;
     const double major = 0.45 * std::max<Index>(o.count, 6);
@@ -113,13 +129,13 @@ Family heptoroid() {
         // After one way round the axis each rail goes on as the next one.
         g.edges.emplace_back(3 * i + j, i + 1 < o.count ? 3 * (i + 1) + j : (j + 1) % 3);
       }
-    return skin_graph(g, o.resolution);
+    return g;
   };
-  return {info, make, [](SampleInfo& i, const SampleOptions& o) {
-            i.genus = 3 * o.count + 1;
-            i.resolution = 1200 * o.count;
-            i.least_resolution = 450 * o.count;
-          }};
+  return skin_family(info, build, [](SampleInfo& i, const SampleOptions& o) {
+    i.genus = 3 * o.count + 1;
+    i.resolution = 1200 * o.count;
+    i.least_resolution = 450 * o.count;
+  });
 }
 
 }  // namespace

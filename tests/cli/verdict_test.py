@@ -54,7 +54,7 @@ class Check(ProgramTest):
     def test_outside_says_how_much_and_where(self):
         result = self.check(self.ROUND + [(1, 0, 3)], [(i, (i + 1) % 8) for i in range(8)] + [(0, 8)])
         self.assertEqual(result.returncode, NO_SKELETON)
-        self.assertRegex(result.stderr.decode(), r"28 % of the skeleton's length .* outside the solid, on 1 edge, .* at 1 0 0\.\d")
+        self.assertRegex(result.stderr.decode(), r"28\.\d % of the skeleton's length .* outside the solid, on 1 edge, .* at 1 0 0\.\d")
         self.assertEqual(self.check(self.ROUND + [(1, 0, 3)], [(i, (i + 1) % 8) for i in range(8)] + [(0, 8)],
                                     "--least-inside", 0.5).returncode, DONE)
 

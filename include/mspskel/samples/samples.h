@@ -6,8 +6,11 @@
 #include <vector>
 
 #include "mspskel/mesh/polygon_soup.h"
+#include "mspskel/skeleton/curve_skeleton.h"
 
 namespace mspskel {
+
+enum class Section { kOwn, kSquare, kRound };
 
 struct SampleOptions {
   Index resolution = 0;    // wanted number of vertices, met to about 20 %; 0: the sample's default
@@ -15,6 +18,8 @@ struct SampleOptions {
   std::uint64_t seed = 1;  // of jitter and of the vertices' places on the surface
   Index count = kNone;     // what it counts is the sample's affair (SampleInfo::count_of); kNone: its default
   double ratio = 0;        // of two of its lengths (SampleInfo::ratio_of); 0: the sample's default
+  Vector3 sides = Vector3::Zero();  // lengths along x, y and z where SampleInfo::has_sides; 0: the default
+  Section section = Section::kOwn;  // of the bars where SampleInfo::has_sections; kOwn: the sample's default
 };
 
 struct SampleInfo {
@@ -29,6 +34,11 @@ struct SampleInfo {
   Index count = 0, least_count = 0, most_count = 0;
   std::string ratio_of;  // empty: --ratio has no meaning for this sample
   double ratio = 0, least_ratio = 0, most_ratio = 0;
+  bool has_sides = false;  // whether sides are its own affair to choose
+  Vector3 sides = Vector3::Zero();
+  bool has_sections = false;  // whether its bars may be square or round
+  Section section = Section::kOwn;
+  bool has_truth = false;  // whether sample_truth knows its skeleton
 };
 
 // All samples in the order of their names, with the facts for default options.
@@ -43,5 +53,12 @@ SampleInfo describe_sample(const std::string& name, const SampleOptions& options
 // jitter is 0. The same arguments give the same bytes. Throws UsageError as describe_sample does, and where
 // the resolution is too low for the shape.
 PolygonSoup make_sample(const std::string& name, const SampleOptions& options = {});
+
+// The skeleton that the sample was made round, in the sample's place; resolution and jitter do not change it.
+// A leaf lies on the axis of its limb, a quarter of the limb's half width below the surface. A node's radius
+// is half of the width of its part: at a joint that of the widest part that meets there, so that arcs are a
+// matter of taste nearer to a joint than its radius. The surface map is empty. Throws UsageError as
+// describe_sample does, and for a sample without a defined skeleton: a shell, a plate, a ball.
+CurveSkeleton sample_truth(const std::string& name, const SampleOptions& options = {});
 
 }  // namespace mspskel
