@@ -2,6 +2,7 @@
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -107,31 +108,47 @@ std::optional<Eigen::MatrixX3d> solved_by(const Eigen::SparseMatrix<double>& mat
   return Eigen::MatrixX3d(solver.solve(right));
 }
 
+// The place of each point in the elimination: inner points of the chains, then those beside a hub, then hubs.
+// Along a chain nothing fills in but its two ends; a joint's neighbours, which are all coupled with each
+// other, come when only they are left.
+inline std::vector<Index> elimination_order(const ArcPoints& points) {
+  const auto is_inner = [&](Index i) { return points.kind[i] == ArcPoints::Kind::kInner; };
+  const auto group = [&](Index i) {
+    if (!is_inner(i)) return 2;
+    return std::all_of(points.next[i].begin(), points.next[i].end(), is_inner) ? 0 : 1;
+  };
+  std::array<Index, 3> place{};
+  std::vector<int> group_of(points.x.size());
+  for (Index i = 0; i < points.count(); ++i) ++place[group_of[i] = group(i)];
+  place = {0, place[0], place[0] + place[1]};
+  std::vector<Index> order(points.x.size());
+  for (Index i = 0; i < points.count(); ++i) order[i] = place[group_of[i]]++;
+  return order;
+}
+
 // Minimises Σ w|x − goal|² + Σ μ|x − mean of neighbours|² with μ = smoothness · stiffness.
 inline std::vector<Vector3> solve_positions(const ArcPoints& points, const std::vector<Pull>& pulls,
                                             double smoothness) {
   using Triplet = Eigen::Triplet<double>;
   const Index n = points.count();
-  // The chains' points come first and the joints last, so elimination along the chains fills in next to
-  // nothing and needs no ordering of its own.
-  const auto row = [n](Index i) { return n - 1 - i; };
+  const std::vector<Index> row = elimination_order(points);
   std::vector<Triplet> entries;
   Eigen::MatrixX3d right(n, 3);
   for (Index i = 0; i < n; ++i) {
     const double w = std::max(pulls[i].weight, 1e-9);
-    entries.emplace_back(row(i), row(i), w);
-    right.row(row(i)) = w * pulls[i].goal.transpose();
+    entries.emplace_back(row[i], row[i], w);
+    right.row(row[i]) = w * pulls[i].goal.transpose();
     const auto& next = points.next[i];
     if (next.size() < 2) continue;
     const double mu =
         smoothness * pulls[i].stiffness * (points.kind[i] == ArcPoints::Kind::kInner ? 1.0 : 0.3);
     // Row r = e_i − Σ e_j / k; its outer product enters the matrix.
     const double k = static_cast<double>(next.size());
-    entries.emplace_back(row(i), row(i), mu);
+    entries.emplace_back(row[i], row[i], mu);
     for (const Index a : next) {
-      entries.emplace_back(row(i), row(a), -mu / k);
-      entries.emplace_back(row(a), row(i), -mu / k);
-      for (const Index b : next) entries.emplace_back(row(a), row(b), mu / (k * k));
+      entries.emplace_back(row[i], row[a], -mu / k);
+      entries.emplace_back(row[a], row[i], -mu / k);
+      for (const Index b : next) entries.emplace_back(row[a], row[b], mu / (k * k));
     }
   }
   Eigen::SparseMatrix<double> matrix(n, n);
@@ -144,7 +161,7 @@ inline std::vector<Vector3> solve_positions(const ArcPoints& points, const std::
   if (!solved) return points.x;
   const Eigen::MatrixX3d& solution = *solved;
   std::vector<Vector3> x(points.x.size());
-  for (Index i = 0; i < n; ++i) x[i] = solution.row(row(i)).transpose();
+  for (Index i = 0; i < n; ++i) x[i] = solution.row(row[i]).transpose();
   return x;
 }
 
