@@ -37,6 +37,8 @@ class SampleCommand : public Command {
     table.argument("OUT", output_, "mesh (.off .obj .ply), - for .off on stdout; NAME.off by default");
     table.number("--resolution", options_.resolution, {0, 1e8},
                  "wanted number of vertices; 0: the sample's own");
+    table.flag("--sparse", options_.sparse,
+               "long triangles where the surface is flat or bent one way; few vertices stay");
     table.number("--jitter", options_.jitter, {0, 0.3},
                  "random displacement of the vertices, in mean edge lengths");
     table.number("--count", options_.count, {-1, 1e6}, "what the list below says; -1: the sample's own");

@@ -11,7 +11,7 @@ from .skeleton import Skeleton
 
 
 def sample(name: str = "quadruped", **settings: Any) -> tuple[np.ndarray, np.ndarray]:
-    """Vertices and faces of a sample; settings are resolution, jitter, seed, count, ratio, sides, section.
+    """Vertices and faces of a sample; settings are resolution, jitter, seed, count, ratio, sides, section, sparse.
 
     Raises UsageError for another name, with the nearest one.
     """

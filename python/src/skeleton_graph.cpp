@@ -96,7 +96,7 @@ Section section_of(const std::string& word) {
 template <class Result>
 auto of_sample(Result (*make)(const std::string&, const SampleOptions&)) {
   return [make](const std::string& name, Index resolution, double jitter, std::uint64_t seed, Index count,
-                double ratio, const std::array<double, 3>& sides, const std::string& section) {
+                double ratio, const std::array<double, 3>& sides, const std::string& section, bool sparse) {
     SampleOptions options;
     options.resolution = resolution;
     options.jitter = jitter;
@@ -105,6 +105,7 @@ auto of_sample(Result (*make)(const std::string&, const SampleOptions&)) {
     options.ratio = ratio;
     options.sides = {sides[0], sides[1], sides[2]};
     options.section = section_of(section);
+    options.sparse = sparse;
     const nb::gil_scoped_release unlocked;
     return make(name, options);
   };
@@ -114,7 +115,8 @@ template <class Function>
 void define_of_sample(nb::module_& module, const char* name, const Function& function) {
   module.def(name, function, nb::arg("name"), nb::arg("resolution") = 0, nb::arg("jitter") = 0.0,
              nb::arg("seed") = 1, nb::arg("count") = kNone, nb::arg("ratio") = 0.0,
-             nb::arg("sides") = std::array<double, 3>{0, 0, 0}, nb::arg("section") = "own");
+             nb::arg("sides") = std::array<double, 3>{0, 0, 0}, nb::arg("section") = "own",
+             nb::arg("sparse") = false);
 }
 
 void bind_samples(nb::module_& module) {

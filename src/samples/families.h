@@ -19,11 +19,13 @@ struct Family {
   std::function<CurveSkeleton(const SampleOptions&)> truth = {};
 };
 
-std::vector<Family> ring_families();   // surfaces of revolution, prisms, single polyhedra
-std::vector<Family> knot_families();   // tubes along closed curves: knots, links, chains
-std::vector<Family> block_families();  // blocks and plates with holes and tunnels, thin walls
-std::vector<Family> skin_families();   // skins of graphs: creatures, scaffolds
-std::vector<Family> bar_families();    // straight bars along the axes: tools, furniture, frames
+std::vector<Family> ring_families();    // surfaces of revolution, prisms, single polyhedra
+std::vector<Family> knot_families();    // tubes along closed curves: knots, links, chains
+std::vector<Family> block_families();   // blocks and plates with holes and tunnels, thin walls
+std::vector<Family> skin_families();    // skins of graphs: creatures, scaffolds
+std::vector<Family> bar_families();     // straight bars along the axes: tools, furniture, frames
+std::vector<Family> vessel_families();  // round bodies with handles and spouts
+std::vector<Family> tree_families();    // trees of tubes
 
 // The beginning of a family's facts. `least`: the fewest vertices that show the shape without
 // self-intersections.

@@ -7,6 +7,7 @@
 #include "mspskel/base/error.h"
 #include "mspskel/samples/shapes.h"
 #include "surface_area.h"
+#include "tetrahedron_cut.h"
 
 namespace mspskel {
 
@@ -75,34 +76,12 @@ class March {
     for (const auto& tetrahedron : kKuhn) march_tetrahedron(low, value, tetrahedron);
   }
 
-  // With inside corners first, in an even permutation: one inside gives the triangle ab ac ad, two the quad
-  // ac ad bd bc.
   void march_tetrahedron(const Cell& low, const std::array<double, 8>& value,
                          const std::array<int, 4>& corners) {
-    std::array<int, 4> t{};
-    int inside = 0, outside = 4, swaps = 0;
-    for (int k = 0; k < 4; ++k)
-      if (value[corners[k]] < 0)
-        t[inside++] = k;
-      else
-        t[--outside] = k;
-    if (inside == 0 || inside == 4) return;
-    for (int i = 0; i < 4; ++i)
-      for (int j = i + 1; j < 4; ++j) swaps += t[i] > t[j];
-    if (swaps % 2 == 1) std::swap(inside == 1 ? t[2] : t[0], inside == 1 ? t[3] : t[1]);
-    const auto cut = [&](int i, int j) { return vertex(low, value, corners[t[i]], corners[t[j]]); };
-    // Cuts make vertices, so their order is written down: as arguments it would be the compiler's.
-    if (inside == 1) {
-      const Index ad = cut(0, 3), ac = cut(0, 2), ab = cut(0, 1);
-      soup_.add_triangle(ab, ac, ad);
-    } else if (inside == 3) {
-      const Index cd = cut(2, 3), bd = cut(1, 3), ad = cut(0, 3);
-      soup_.add_triangle(ad, bd, cd);
-    } else {
-      const Index ac = cut(0, 2), ad = cut(0, 3), bd = cut(1, 3), bc = cut(1, 2);
-      soup_.add_triangle(ac, ad, bd);
-      soup_.add_triangle(ac, bd, bc);
-    }
+    std::array<double, 4> at_corners;
+    for (std::size_t k = 0; k < 4; ++k) at_corners[k] = value[corners[k]];
+    detail::cut_tetrahedron(soup_, at_corners,
+                            [&](int i, int j) { return vertex(low, value, corners[i], corners[j]); });
   }
 
   // The vertex on the edge between two corners of a cube, made once. An edge is its lower corner and its
@@ -114,9 +93,7 @@ class March {
     const auto [place, is_new] = vertex_.try_emplace(key, static_cast<Index>(soup_.points.size()));
     if (is_new) {
       const Cell to{low[0] + (b & 1), low[1] + (b >> 1 & 1), low[2] + (b >> 2)};
-      // Off the corners, or vertices of several edges would coincide there.
-      const double t = std::clamp(value[a] / (value[a] - value[b]), 0.03, 0.97);
-      soup_.points.push_back((1 - t) * at(from) + t * at(to));
+      soup_.points.push_back(detail::cut_point(at(from), value[a], at(to), value[b]));
     }
     return place->second;
   }
@@ -131,10 +108,10 @@ class March {
 
 // Whether a face looks against the function's growth at all three corners together: where triangles are too
 // large for a thin part, remeshing can turn one over.
-bool is_folded(const PolygonSoup& soup, const ImplicitSolid& solid, double edge) {
-  const double step = 0.02 * edge;
+bool is_folded(const PolygonSoup& soup, const ImplicitSolid& solid, const RemeshOptions& options) {
   std::vector<Vector3> up;
   for (const Vector3& p : soup.points) {
+    const double step = 0.02 * options.edge * (options.by_width ? solid.width(p) : 1.0);
     Vector3 gradient;
     for (Eigen::Index k = 0; k < 3; ++k)
       gradient[k] = solid.value(p + step * Vector3::Unit(k)) - solid.value(p - step * Vector3::Unit(k));
@@ -146,6 +123,31 @@ bool is_folded(const PolygonSoup& soup, const ImplicitSolid& solid, double edge)
     if (!(normal.dot(up[p] + up[q] + up[r]) > 0)) return true;
   }
   return false;
+}
+
+// Now and then a face gets stuck the wrong way round in a crease; from another grid it does not.
+PolygonSoup remeshed(PolygonSoup soup, const ImplicitSolid& solid, const RemeshOptions& options, double cell,
+                     PolygonSoup (*march)(const ImplicitSolid&, double)) {
+  for (int attempt = 0; attempt < 3; ++attempt) {
+    PolygonSoup result = remesh(soup, solid, options);
+    if (!is_folded(result, solid, options)) return result;
+    cell *= 0.85;
+    soup = march(solid, cell);
+  }
+  throw UsageError("the resolution is too low for the solid's thinnest parts");
+}
+
+constexpr double kThickestCell = 0.8;  // of the width: a limb's section has some ten triangles at least
+
+double area_in_widths(const PolygonSoup& soup, const ImplicitSolid& solid) {
+  double sum = 0;
+  for (std::size_t c = 0; c < soup.corners.size(); c += 3) {
+    const Vector3 &a = soup.points[soup.corners[c]], &b = soup.points[soup.corners[c + 1]],
+                  &d = soup.points[soup.corners[c + 2]];
+    const double width = solid.width((a + b + d) / 3);
+    sum += (b - a).cross(d - a).norm() / 2 / (width * width);
+  }
+  return sum;
 }
 
 }  // namespace
@@ -168,14 +170,17 @@ PolygonSoup polygonise(const ImplicitSolid& solid, Index vertices, double thinne
     if (wanted > 0.75 * cell) break;
     cell = wanted;
   }
-  // Now and then a face gets stuck the wrong way round in a crease; from another grid it does not.
-  for (int attempt = 0; attempt < 3; ++attempt) {
-    PolygonSoup result = remesh(soup, solid, options);
-    if (!is_folded(result, solid, options.edge)) return result;
-    cell *= 0.85;
-    soup = march_tetrahedra(solid, cell);
-  }
-  throw UsageError("the resolution is too low for the solid's thinnest parts");
+  return remeshed(std::move(soup), solid, options, cell, &march_tetrahedra);
+}
+
+PolygonSoup polygonise_by_width(const ImplicitSolid& solid, Index vertices) {
+  RemeshOptions options;
+  options.by_width = true;
+  PolygonSoup soup = march_by_width(solid, kThickestCell);
+  if (soup.points.empty()) throw UsageError("the resolution is too low to see the solid");
+  // Remeshing ends with edges a little shorter than asked for.
+  options.edge = 1.08 * edge_for_vertices(area_in_widths(soup, solid), vertices);
+  return remeshed(std::move(soup), solid, options, kThickestCell, &march_by_width);
 }
 
 }  // namespace mspskel

@@ -31,7 +31,8 @@ class Remesher {
  public:
   Remesher(const PolygonSoup& soup, const ImplicitSolid& solid, const RemeshOptions& options)
       : solid_(solid), options_(options) {
-    for (const Vector3& p : soup.points) mesh_.add_vertex({p.x(), p.y(), p.z()});
+    mesh_.add_property(edge_);
+    for (const Vector3& p : soup.points) set_edge(mesh_.add_vertex({p.x(), p.y(), p.z()}));
     for (std::size_t c = 0; c < soup.corners.size(); c += 3)
       mesh_.add_face(VertexHandle(soup.corners[c]), VertexHandle(soup.corners[c + 1]),
                      VertexHandle(soup.corners[c + 2]));
@@ -78,6 +79,17 @@ class Remesher {
   Point apex(HalfedgeHandle h) const {
     return mesh_.point(mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h)));
   }
+  // The wanted edge length at a vertex.
+  double edge(VertexHandle v) const { return mesh_.property(edge_, v); }
+  void set_edge(VertexHandle v) {
+    mesh_.property(edge_, v) =
+        options_.by_width ? options_.edge * solid_.width(to_vector3(mesh_.point(v))) : options_.edge;
+  }
+  double edge(VertexHandle a, VertexHandle b) const { return 0.5 * (edge(a) + edge(b)); }
+  double wanted_length(EdgeHandle e) const {
+    const auto h = mesh_.halfedge_handle(e, 0);
+    return edge(mesh_.from_vertex_handle(h), mesh_.to_vertex_handle(h));
+  }
   double length(EdgeHandle e) const {
     const auto h = mesh_.halfedge_handle(e, 0);
     return (mesh_.point(mesh_.to_vertex_handle(h)) - mesh_.point(mesh_.from_vertex_handle(h))).norm();
@@ -87,10 +99,12 @@ class Remesher {
     const std::size_t count = mesh_.n_edges();
     for (std::size_t i = 0; i < count; ++i) {
       const EdgeHandle e(static_cast<int>(i));
-      if (mesh_.status(e).deleted() || length(e) <= kLongest * options_.edge) continue;
+      if (mesh_.status(e).deleted() || length(e) <= kLongest * wanted_length(e)) continue;
       const auto h = mesh_.halfedge_handle(e, 0);
-      mesh_.split(e,
-                  0.5 * (mesh_.point(mesh_.to_vertex_handle(h)) + mesh_.point(mesh_.from_vertex_handle(h))));
+      const VertexHandle middle = mesh_.add_vertex(
+          0.5 * (mesh_.point(mesh_.to_vertex_handle(h)) + mesh_.point(mesh_.from_vertex_handle(h))));
+      set_edge(middle);
+      mesh_.split(e, middle);
     }
   }
 
@@ -101,7 +115,7 @@ class Remesher {
     for (auto it = mesh_.cvoh_iter(v0); it.is_valid(); ++it) {
       const VertexHandle b = mesh_.to_vertex_handle(*it);
       if (b == v1) continue;
-      if ((mesh_.point(b) - target).norm() > kLongest * options_.edge) return false;
+      if ((mesh_.point(b) - target).norm() > kLongest * edge(b, v1)) return false;
       const VertexHandle c = mesh_.to_vertex_handle(mesh_.next_halfedge_handle(*it));
       if (c == v1) continue;
       const Point &pb = mesh_.point(b), &pc = mesh_.point(c);
@@ -125,7 +139,8 @@ class Remesher {
     const std::size_t count = mesh_.n_edges();
     for (std::size_t i = 0; i < count; ++i) {
       const EdgeHandle e(static_cast<int>(i));
-      if (mesh_.status(e).deleted() || (length(e) >= kShortest * options_.edge && !beside_fold(e))) continue;
+      if (mesh_.status(e).deleted() || (length(e) >= kShortest * wanted_length(e) && !beside_fold(e)))
+        continue;
       for (unsigned side = 0; side < 2; ++side)
         if (const auto h = mesh_.halfedge_handle(e, side); may_collapse(h)) {
           mesh_.collapse(h);
@@ -175,8 +190,8 @@ class Remesher {
   }
 
   // Forward differences over a hundredth of an edge.
-  Vector3 gradient(const Vector3& p, double value) const {
-    const double step = 0.01 * options_.edge;
+  Vector3 gradient(const Vector3& p, double value, double edge) const {
+    const double step = 0.01 * edge;
     Vector3 result;
     for (Eigen::Index k = 0; k < 3; ++k) {
       Vector3 q = p;
@@ -187,13 +202,13 @@ class Remesher {
   }
 
   // Newton steps along the gradient. `up` receives the direction of the last one.
-  Vector3 projected(Vector3 p, int steps, Vector3& up) const {
+  Vector3 projected(Vector3 p, int steps, double edge, Vector3& up) const {
     for (int i = 0; i < steps; ++i) {
       const double value = solid_.value(p);
-      up = gradient(p, value);
+      up = gradient(p, value, edge);
       if (up.squaredNorm() < 0.01) return p;
       Vector3 move = -value / up.squaredNorm() * up;
-      if (move.norm() > 0.5 * options_.edge) move *= 0.5 * options_.edge / move.norm();
+      if (move.norm() > 0.5 * edge) move *= 0.5 * edge / move.norm();
       p += move;
     }
     return p;
@@ -208,7 +223,7 @@ class Remesher {
     for (std::size_t i = from; i < mesh_.n_vertices(); ++i) {
       const VertexHandle v(static_cast<int>(i));
       const Vector3 p = to_vector3(mesh_.point(v));
-      set_normal(v, gradient(p, solid_.value(p)));
+      set_normal(v, gradient(p, solid_.value(p), edge(v)));
     }
   }
 
@@ -234,8 +249,8 @@ class Remesher {
   // misleads) or a face would turn over.
   bool move(VertexHandle v, const Vector3& goal, int newton_steps) {
     Vector3 outward;
-    const Vector3 to = projected(goal, newton_steps, outward);
-    if (std::abs(solid_.value(to)) > kFarthest * options_.edge) return false;
+    const Vector3 to = projected(goal, newton_steps, edge(v), outward);
+    if (std::abs(solid_.value(to)) > kFarthest * edge(v)) return false;
     const Point target(to.x(), to.y(), to.z());
     for (auto it = mesh_.cvoh_iter(v); it.is_valid(); ++it) {
       const VertexHandle b = mesh_.to_vertex_handle(*it),
@@ -244,11 +259,13 @@ class Remesher {
       if (turns(normal(mesh_.point(v), pb, pc), normal(target, pb, pc), up(v, b, c))) return false;
     }
     mesh_.set_point(v, target);
+    set_edge(v);
     set_normal(v, outward);
     return true;
   }
 
   Mesh mesh_;
+  OpenMesh::VPropHandleT<double> edge_;
   const ImplicitSolid& solid_;
   RemeshOptions options_;
 };
@@ -257,6 +274,7 @@ class Remesher {
 
 PolygonSoup remesh(const PolygonSoup& soup, const ImplicitSolid& solid, const RemeshOptions& options) {
   if (!(options.edge > 0) || !std::isfinite(options.edge)) throw UsageError("edge must be a positive number");
+  if (options.by_width && !solid.width) throw UsageError("the solid has no width to follow");
   if (options.rounds < 0) throw UsageError("rounds must not be negative");
   return Remesher(soup, solid, options).run();
 }

@@ -10,6 +10,7 @@
 #include "mspskel/base/error.h"
 #include "mspskel/base/near_name.h"
 #include "noise.h"
+#include "sparse.h"
 
 namespace mspskel {
 
@@ -68,8 +69,9 @@ using detail::Family;
 const std::vector<Family>& families() {
   static const std::vector<Family> all = [] {
     std::vector<Family> list;
-    for (const auto& part : {detail::ring_families(), detail::knot_families(), detail::block_families(),
-                             detail::skin_families(), detail::bar_families()})
+    for (const auto& part :
+         {detail::ring_families(), detail::knot_families(), detail::block_families(), detail::skin_families(),
+          detail::bar_families(), detail::tree_families(), detail::vessel_families()})
       list.insert(list.end(), part.begin(), part.end());
     std::sort(list.begin(), list.end(),
               [](const Family& a, const Family& b) { return a.info.name < b.info.name; });
@@ -216,8 +218,10 @@ SampleInfo describe_sample(const std::string& name, const SampleOptions& options
 }
 
 PolygonSoup make_sample(const std::string& name, const SampleOptions& options) {
+  constexpr double kSparseError = 0.05;  // of a mean edge: chords of the curved parts
   const Order order = complete(find_family(name), options);
   PolygonSoup soup = order.family->make(order.options);
+  if (order.options.sparse) soup = detail::with_long_triangles(soup, kSparseError * mean_edge(soup));
   if (!has_topology(soup, order.info))
     throw UsageError("a resolution of " + std::to_string(order.options.resolution) +
                      " is too low for sample " + name + "; use a larger --resolution");

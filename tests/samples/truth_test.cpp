@@ -3,6 +3,7 @@
 
 #include "mspskel/base/error.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
+#include "mspskel/mesh/self_intersection.h"
 #include "mspskel/samples/blocks.h"
 #include "mspskel/samples/samples.h"
 #include "mspskel/skeleton/check_skeleton.h"
@@ -32,11 +33,12 @@ TEST_CASE("a sample's true skeleton lies in it and has its pieces, handles and e
 }
 
 TEST_CASE("count and section give a true skeleton of their own") {
-  for (const char* name : {"cross", "cube-rods", "comb", "ladder", "lattice", "table"})
+  for (const char* name : {"cross", "cube-rods", "comb", "ladder", "lattice", "table", "vase", "airway"})
     for (const Section section : {Section::kSquare, Section::kRound}) {
       const SampleInfo info = describe_sample(name);
+      if (!info.has_sections && section == Section::kRound) continue;
       SampleOptions options;
-      options.section = section;
+      if (info.has_sections) options.section = section;
       options.count = info.least_count == info.count ? info.count + 1 : info.least_count;
       options.resolution = describe_sample(name, options).least_resolution;
       INFO(name << " " << options.count << (section == Section::kRound ? " round" : " square"));
@@ -61,6 +63,43 @@ TEST_CASE("an end of the truth is a quarter of the half width below the surface,
   double lowest = 0;
   for (const SkeletonNode& node : hammer.nodes) lowest = std::min(lowest, node.position.z());
   CHECK(lowest == Approx(-9 + 0.25 * 0.4));
+}
+
+TEST_CASE("long triangles keep the topology, the solid and its sharp edges") {
+  for (const char* name : {"hammer", "ladder", "tee", "vase"}) {
+    INFO(name);
+    SampleOptions options;
+    options.resolution = describe_sample(name).least_resolution;
+    const DefaultMesh dense = to_mesh(make_sample(name, options));
+    options.sparse = true;
+    const DefaultMesh mesh = to_mesh(make_sample(name, options));
+    const SurfaceSnapshot s = make_snapshot(mesh);
+    CHECK(s.vertex_count() < static_cast<Index>(dense.n_vertices()) * 3 / 4);
+    CHECK(signed_volume(mesh) == Approx(signed_volume(dense)).epsilon(0.01));
+    CHECK(count_self_intersections(s, BoundingVolumeHierarchy(s), 1) == 0);
+  }
+}
+
+TEST_CASE("a tree's edges follow the width of its limbs") {
+  SampleOptions options;
+  options.count = 30;
+  options.resolution = 8000;
+  const PolygonSoup soup = make_sample("tree", options);
+  double longest = 0, shortest = 1e300;
+  for (std::size_t c = 0; c < soup.corners.size(); c += 3) {
+    const double length = (soup.points[soup.corners[c]] - soup.points[soup.corners[c + 1]]).norm();
+    longest = std::max(longest, length);
+    shortest = std::min(shortest, length);
+  }
+  CHECK(longest > 20 * shortest);
+  const CurveSkeleton truth = sample_truth("tree", options);
+  double widest = 0, thinnest = 1e300;
+  for (const SkeletonNode& node : truth.nodes) {
+    widest = std::max(widest, node.radius);
+    thinnest = std::min(thinnest, node.radius);
+  }
+  CHECK(widest / thinnest == Approx(20));
+  CHECK(count_graph(truth).leaves == 31);
 }
 
 TEST_CASE("where no skeleton is defined the error says so") {

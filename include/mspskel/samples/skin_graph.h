@@ -29,11 +29,14 @@ double round_cone_distance(const Vector3& p, const BallNode& a, const BallNode& 
 // are.
 double smooth_minimum(double a, double b, double blend);
 
-// The union of the graph's round cones with fillets. Precondition: every node has an edge and all radii are
-// positive.
+// The union of the graph's round cones with fillets, and its width. Precondition: every node has an edge and
+// all radii are positive. An evaluation takes O(log edges) where few edges pass nearby.
 ImplicitSolid skin_solid(const BallGraph& graph);
 
 // The skin with about `vertices` vertices. Throws UsageError where they are too few for its thinnest limb.
 PolygonSoup skin_graph(const BallGraph& graph, Index vertices);
+
+// The same with edges in proportion to the width of the limbs.
+PolygonSoup skin_graph_by_width(const BallGraph& graph, Index vertices);
 
 }  // namespace mspskel
