@@ -92,7 +92,7 @@ Image planes_picture(const Study& study, const Painter& painter) {
     images.push_back(painter.msp(run.perimeter));
     labels.push_back(std::to_string(run.planes) + " slices");
   }
-  return row(images, labels, 4);
+  return row(images, labels, static_cast<int>(kThresholds.size()));
 }
 
 // One quantity of all vertices, before or after the refinement.
@@ -157,7 +157,7 @@ Image sweep_picture(const Study& study, const Painter& painter) {
     std::snprintf(text, sizeof text, "saturation %g", kThresholds[i]);
     labels.emplace_back(text);
   }
-  return row(images, labels, 4);
+  return row(images, labels, static_cast<int>(kThresholds.size()));
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace mspskel::experiments {
 // Planes a vertex, as in Fig. 5.1; the last is the thesis's own choice.
 inline constexpr std::array<int, 4> kPlanes{2, 5, 15, 25};
 // Fig. 5.23 to 5.25 do not say which thresholds they show.
-inline constexpr std::array<double, 4> kThresholds{0.001, 0.01, 0.1, 1.0};
+inline constexpr std::array<double, 5> kThresholds{0.001, 0.01, 0.05, 0.1, 1.0};
 
 // Slices with a number of planes a vertex, before refinement.
 struct PlaneRun {

@@ -26,7 +26,7 @@ namespace {
 struct Settings {
   std::uint64_t seed = 1, runs = 0;
   double seconds = 0;
-  int longest = 60;  // processor seconds of an input
+  int longest = 180;  // processor seconds of an input
   std::string write;
 };
 

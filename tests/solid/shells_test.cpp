@@ -1,4 +1,5 @@
 // Vessels: the law that their arcs follow from the shape and not from where the collapse put them.
+#include "mspskel/io/write_mesh.h"
 #include "mspskel/solid/shells.h"
 
 #include <algorithm>
@@ -195,7 +196,11 @@ TEST_CASE("Loops of mugs, vases and teapots are at most 1.3 times as long as the
   const Vessel teapot{{{0, 0}, {0.6, 0}, {1, 0.5}, {0.9, 1.0}, {0.6, 1.4}, {0.6, 1.7}},
                       {{0, 2, 4, 0.8, 0.12}},
                       {{{{-0.9, 0, 0.6}, 0.2}, {{-1.9, 0, 1.3}, 0.12}}}};
-  for (const Vessel& vessel : {mug, vase, teapot}) {
+  Vessel amphora = vase, pair = mug;
+  amphora.handles.push_back({kPi, 3, 5, 0.5, 0.1});
+  pair.handles.push_back({2.0, 2, 3, 0.6, 0.13});
+  for (const Vessel& vessel : {mug, vase, teapot, amphora, pair}) {
+    static int nn=0; {DefaultMesh m_=vessel.mesh(7000); write_mesh("/tmp/vessel"+std::to_string(nn++)+".off",m_);}
     const ExtractResult result = extract_skeleton(vessel.mesh(7000));
     CHECK(count_graph(result.skeleton).cycles == static_cast<Index>(vessel.handles.size()));
     for (const Vessel::Handle& handle : vessel.handles) {

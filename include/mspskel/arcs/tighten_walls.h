@@ -16,6 +16,8 @@ namespace mspskel {
 // wall from one end of its handle to the other: rounds of the heat flow along the line, each followed by a
 // move to the middle of the wall's chord. Points in tubes, hubs of other arcs, and loops without a tube stay.
 // Where the shortest way of its class through the middle of the wall is another one, it takes that.
+// Where a shell has several handles and the arcs in its wall are a tree, they are laid anew if that makes the
+// loops shorter: each handle closes on itself and hangs on the middle of the floor, and so do all other ends.
 // A shell with loops and no leaf gets an arc from the end of a tube to the middle of its floor, which is
 // where the axis of its opening runs inside; the shortest of these arcs. A point moves only as far as its
 // edges stay off the surface. Returns the number of arcs drawn. Cost: a section a point, and a closest point

@@ -32,8 +32,9 @@ enum class DeadEnd {
 
 struct CollapseOptions {
   double lambda = 0.1;  // λ of Eq. 4.4, weight of the slice error in the cost, at least 0
-  double saturation_threshold =
-      0.1;                   // an edge without faces whose saturation is below it is noise, at least 0
+  // An edge without faces whose saturation is below it is noise, at least 0. The thesis prints no value; 0.1
+  // eats all arms of its octopus, which Fig. 5.18 shows with them.
+  double saturation_threshold = 0.05;
   double angle_floor = 0.0;  // radians, 0 to π/2: least angle in Eq. 4.2; 0 is the thesis
   EdgePolicy one_dimensional = EdgePolicy::kSaturation;
   CollapseOrder order = CollapseOrder::kCost;
