@@ -169,8 +169,8 @@ double mean_edge(const PolygonSoup& soup) {
   return sum / static_cast<double>(soup.corners.size());
 }
 
-void jitter(PolygonSoup& soup, double amount, std::uint64_t seed) {
-  const double reach = amount * mean_edge(soup);
+// By up to `reach`, model units.
+void jitter(PolygonSoup& soup, double reach, std::uint64_t seed) {
   for (std::size_t v = 0; v < soup.points.size(); ++v) {
     Vector3 shift;
     for (std::uint64_t axis = 0; axis < 3; ++axis)
@@ -218,14 +218,15 @@ SampleInfo describe_sample(const std::string& name, const SampleOptions& options
 }
 
 PolygonSoup make_sample(const std::string& name, const SampleOptions& options) {
-  constexpr double kSparseError = 0.05;  // of a mean edge: chords of the curved parts
+  constexpr double kSparseError = 0.05;  // of an edge: chords of the curved parts
   const Order order = complete(find_family(name), options);
   PolygonSoup soup = order.family->make(order.options);
-  if (order.options.sparse) soup = detail::with_long_triangles(soup, kSparseError * mean_edge(soup));
+  const double edge = mean_edge(soup);
+  if (order.options.sparse) soup = detail::with_long_triangles(soup, kSparseError * edge);
   if (!has_topology(soup, order.info))
     throw UsageError("a resolution of " + std::to_string(order.options.resolution) +
                      " is too low for sample " + name + "; use a larger --resolution");
-  if (order.options.jitter > 0) jitter(soup, order.options.jitter, order.options.seed);
+  if (order.options.jitter > 0) jitter(soup, order.options.jitter * edge, order.options.seed);
   return soup;
 }
 

@@ -16,7 +16,7 @@ struct SampleOptions {
   Index resolution = 0;  // wanted number of vertices, met to about 20 %; 0: the sample's default
   bool sparse =
       false;          // long triangles where the surface is flat or bent one way; of those vertices few stay
-  double jitter = 0;  // random displacement of every vertex, in mean edge lengths, [0, 0.3]
+  double jitter = 0;  // random displacement of every vertex, in mean edge lengths before `sparse`, [0, 0.3]
   std::uint64_t seed = 1;  // of jitter and of the vertices' places on the surface
   Index count = kNone;     // what it counts is the sample's affair (SampleInfo::count_of); kNone: its default
   double ratio = 0;        // of two of its lengths (SampleInfo::ratio_of); 0: the sample's default
