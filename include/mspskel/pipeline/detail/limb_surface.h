@@ -37,11 +37,11 @@ inline CoarseSurface coarsen_in_steps(const SurfaceSnapshot& input, const Extrac
   return coarse;
 }
 
-// How many vertices a surface needs so that about four of them go round each of its parts, however thin. A
+// How many vertices a surface needs so that about five of them go round each of its parts, however thin. A
 // body that is about as long as wide needs none to speak of, a sheet is as wide as it is, and a branching
 // shape needs as many as it is longer than wide.
 inline double vertices_for_width(const SurfaceSnapshot& surface, const VertexSlices& slices) {
-  constexpr double kOfPerimeterSquare = 16;
+  constexpr double kOfPerimeterSquare = 24;
   double squares = 0;
   for (Index v = 0; v < surface.vertex_count(); ++v)
     if (slices.valid[v])  // slices round less than the vertex's own surface are corners
@@ -52,7 +52,7 @@ inline double vertices_for_width(const SurfaceSnapshot& surface, const VertexSli
 
 // The options with which a surface gets so many vertices, where it got much fewer; nothing otherwise.
 inline std::optional<ExtractOptions> finer(const ExtractOptions& options, double wanted, Index count) {
-  constexpr double kFewer = 1.25;
+  constexpr double kFewer = 2;
   if (wanted < kFewer * count) return std::nullopt;
   const double more = wanted / options.coarsening.vertices;
   ExtractOptions result = options;

@@ -187,7 +187,8 @@ class LimbCompletion {
     };
     for (const auto& [distance, point] : points) {
       const Vector3& x = point.position;
-      if (solid_.segment_crosses(x, x + 0.98 * (target - x))) continue;
+      // From outside, where the skeleton could not be led inside, the surface is in sight as well.
+      if (solid_.segment_crosses(x, x + 0.98 * (target - x)) || !solid_.inside(x)) continue;
       start = point;
       way.assign(1, x);
       lead_towards(way, target, solid_, step);
@@ -196,7 +197,7 @@ class LimbCompletion {
       return way.size() > 2;
     }
     inner_.prepare();
-    if (!inner_.usable(v)) return false;
+    if (!inner_.usable(v) || !solid_.inside(inner_.point(v))) return false;
     start = points.front().second;
     // What is nearest across a gap is far through the solid.
     if (const Index arc = graph_.arc_of_vertex[v]; arc != kNone && graph_.arcs[arc].alive) {
