@@ -1,12 +1,15 @@
 // From mesh to skeleton: topology, containment, leaves, the map, and that nothing but the shape matters.
 #include "mspskel/extract_skeleton.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <map>
 #include <set>
 
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/mesh/mesh_report.h"
+#include "mspskel/samples/skin_graph.h"
 #include "mspskel/skeleton/check_skeleton.h"
 #include "mspskel/skeleton/surface_map.h"
 #include "support/meshes.h"
@@ -320,4 +323,29 @@ TEST_CASE("Meshes that are no closed surface are refused") {
   broken.set_point(OpenMesh::VertexHandle(2), {0, std::numeric_limits<double>::infinity(), 0});
   CHECK_THROWS_AS(extract_skeleton(broken), MeshError);
   CHECK_THROWS_AS(extract_skeleton(scaled(tetrahedron(), 0)), MeshError);  // one point
+}
+
+// A thread of radius 0.5 along a circle's arc with twigs of that radius at even distances: what a twig
+// protrudes by is a two hundredth of the extent, and more than the thread is thick.
+TEST_CASE("A long thread keeps its short twigs: what is small is told by the width that it sits on") {
+  constexpr Index kTwigs = 9;
+  constexpr double kApart = 16, kTwig = 2.6;
+  BallGraph thread;
+  for (Index i = 0; i < kTwigs + 2; ++i) {
+    const double turn = kApart * (i - 0.5 * (kTwigs + 1)) / 400;
+    thread.nodes.push_back({{400 * std::sin(turn), 400 * std::cos(turn), 0}, 0.5});
+    if (i > 0) thread.edges.push_back({i - 1, i});
+  }
+  for (Index i = 1; i <= kTwigs; ++i) {
+    const double angle = 2.4 * i;  // about the thread
+    const Vector3 root = thread.nodes[i].position, out = root.normalized();
+    thread.edges.push_back({i, static_cast<Index>(thread.nodes.size())});
+    thread.nodes.push_back(
+        {root + kTwig * (std::cos(angle) * out + std::sin(angle) * Vector3::UnitZ()), 0.4});
+  }
+  const ExtractResult result = extract_skeleton(to_mesh(skin_graph(thread, 6000)));
+  std::vector<int> edges_at(result.skeleton.nodes.size(), 0);
+  for (const auto& [a, b] : result.skeleton.edges) ++edges_at[a], ++edges_at[b];
+  CHECK(std::count(edges_at.begin(), edges_at.end(), 1) == kTwigs + 2);
+  CHECK(result.coarse.has_value());
 }

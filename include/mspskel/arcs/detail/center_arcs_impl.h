@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "mspskel/arcs/detail/arc_points.h"
+#include "mspskel/arcs/detail/own_step.h"
 #include "mspskel/base/even_directions.h"
 #include "mspskel/base/linkage.h"
 
@@ -88,14 +89,15 @@ inline Pull pull_between(const ArcPoints& points, const std::vector<Pull>& pulls
           0.5 * (pulls[a].stiffness + pulls[b].stiffness)};
 }
 
+// `share` is that of options.step which the point's arc has.
 inline Pull section_pull(const BoundingVolumeHierarchy& solid, const Vector3& x, const Vector3& tangent,
-                         const Vector3& start, const CenteringOptions& options) {
+                         const Vector3& start, double share, const CenteringOptions& options) {
   const VisibleSection section = visible_section(solid, x, tangent, start, options.rays);
   if (!section.closed || section.radius <= 0) return {x, 1e-3, 1.0};
   const double move = (section.centre - x).norm() / (0.7 * section.radius);
   // A second difference grows with the square of the step; the reference makes the curve independent of it.
   constexpr double kReferenceStep = 0.008;
-  const double thickness = section.clearance * kReferenceStep / (options.step * options.step);
+  const double thickness = section.clearance * kReferenceStep / (options.step * options.step * share);
   return {section.centre, section.roundness * section.roundness / (1 + std::pow(move, 4)),
           thickness * thickness};
 }
@@ -208,14 +210,21 @@ MSPSKEL_INLINE void center_arcs(ArcGraph& graph, const BoundingVolumeHierarchy& 
                                 const CenteringOptions& options, const Execution& execution,
                                 const CrossingLabels& crossings, const std::vector<Index>& held) {
   validate(options);
+  std::vector<double> step(graph.arcs.size(), options.step);
+  for (std::size_t a = 0; a < step.size(); ++a)
+    if (graph.arcs[a].alive) step[a] = detail::own_step(graph.arcs[a], solid, options.step);
   const auto resample = [&] {
-    for (Arc& arc : graph.arcs)
-      if (arc.alive) arc.points = detail::resampled_inside(arc, options.step, solid, crossings);
+    for (std::size_t a = 0; a < step.size(); ++a)
+      if (Arc& arc = graph.arcs[a]; arc.alive)
+        arc.points = detail::resampled_inside(arc, step[a], solid, crossings);
   };
   resample();
   for (int round = 0; round < options.rounds; ++round) {
     if (round > 0) resample();
     detail::ArcPoints points(graph);
+    std::vector<double> share(points.x.size(), 1.0);  // of the step
+    for (std::size_t a = 0; a < step.size(); ++a)
+      for (const Index i : points.chains[a]) share[i] = std::min(share[i], step[a] / options.step);
     const auto tangent = detail::smooth_tangents(points, options.tangent_smoothing);
     const auto first_ray = detail::first_rays(points, tangent, solid);
     const auto left_out = detail::left_out(points, round);
@@ -227,7 +236,7 @@ MSPSKEL_INLINE void center_arcs(ArcGraph& graph, const BoundingVolumeHierarchy& 
           pulls[i] = {points.x[i], 1e-3, 1.0};
           if (points.kind[i] == Kind::kDead || points.kind[i] == Kind::kJoint || left_out[i]) return;
           if (!tangent[i].isZero())
-            pulls[i] = detail::section_pull(solid, points.x[i], tangent[i], first_ray[i], options);
+            pulls[i] = detail::section_pull(solid, points.x[i], tangent[i], first_ray[i], share[i], options);
           if (points.kind[i] == Kind::kLeaf) pulls[i].weight = 0.5;
         });
     for (Index i = 0; i < points.count(); ++i)

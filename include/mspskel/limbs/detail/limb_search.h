@@ -79,12 +79,17 @@ class LimbTipSearch {
     if (notes.area > half_area_[surface_.component[v]]) return;
     const double depth = distance_[part.top] - distance_[v];
     const double slenderness = 2 * kPi * depth * depth / notes.area;
-    if (!(depth > kLeastTipDepth * options_.smallest) || slenderness * notes.vertices < kLeastEvidence)
+    if (!(depth > kLeastTipDepth * smallest_feature(v)) || slenderness * notes.vertices < kLeastEvidence)
       return;
     if (slenderness > notes.slenderness) {
       notes.slenderness = slenderness;
       notes.level = distance_[v];
     }
+  }
+
+  // Where the slices are narrower than the smallest feature, they tell what is small.
+  double smallest_feature(Index v) const {
+    return slices_.valid[v] ? std::min(options_.smallest, slices_.half_width[v]) : options_.smallest;
   }
 
   // Whether the part holds a limb.

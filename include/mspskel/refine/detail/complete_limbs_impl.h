@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "mspskel/arcs/detail/graph_points.h"
+#include "mspskel/arcs/detail/own_step.h"
 #include "mspskel/arcs/detail/polyline_ends.h"
 #include "mspskel/base/linkage.h"
 #include "mspskel/limbs/detail/end_target.h"
@@ -18,6 +19,9 @@ namespace detail {
 
 // What no arc comes near and protrudes less is none, in smallest features.
 inline constexpr double kLeastProtrusion = 3.5;
+
+// A way to a limb that leads by more vertices is no way into a limb.
+inline constexpr Index kMostOfWay = 2000;
 
 class LimbCompletion {
  public:
@@ -46,21 +50,20 @@ class LimbCompletion {
   }
 
   Index run() {
-    constexpr int kTries = 64;
+    constexpr int kRounds = 8;
     constexpr double kLeft = 0.25;  // of its reach: less is left where another arc stands for the part
     Index added = reach_tips();
-    for (int tries = 0; tries < kTries;) {
+    for (int round = 0; round < kRounds; ++round) {
       // All are told before any gets its arc, whose balls may come near the others: equal limbs are told
       // alike.
       const std::vector<LimbTip> found = uncovered_limbs();
       if (found.empty()) break;
       std::vector<double> reach;
       for (const LimbTip& tip : found) reach.push_back(outside_[tip.vertex]);
-      for (std::size_t i = 0; i < found.size() && tries < kTries; ++i) {
+      for (std::size_t i = 0; i < found.size(); ++i) {
         const Index top = found[i].vertex;
         if (outside_[top] < kLeft * reach[i]) continue;
-        ++tries;
-        if (try_limb(top)) {
+        if (try_limb(top, found[i].measures.half_width)) {
           tips_.push_back(found[i]);
           ++added;
         }
@@ -90,7 +93,7 @@ class LimbCompletion {
 
   // The end of a body lies in its middle, so the way to it is straight or none.
   bool reach_tip(const LimbTip& tip) {
-    if (tip.kind != TipKind::kBodyEnd) return try_limb(tip.vertex);
+    if (tip.kind != TipKind::kBodyEnd) return try_limb(tip.vertex, tip.measures.half_width);
     const Index component = surface_.component[tip.vertex];
     const auto own = [&](Index hub) { return hub_component_[hub] == component; };
     for (const auto& [distance, point] :
@@ -116,10 +119,11 @@ class LimbCompletion {
     std::vector<Index> beyond;
     for (Index v = 0; v < surface_.vertex_count(); ++v)
       if (outside_[v] > 0) beyond.push_back(v);
+    // On something thin a twig is told by its own scale, which is that of what carries it.
     const double least = std::max(kLeastProtrusion * options_.smallest, step_);
+    const auto least_depth = [&](Index v) { return std::min(least, carrier_[v]); };
     std::vector<LimbTip> limbs;
-    for (const SlenderPart& part :
-         slender_parts(surface_, outside_, std::move(beyond), [&](Index) { return least; }))
+    for (const SlenderPart& part : slender_parts(surface_, outside_, std::move(beyond), least_depth))
       if (const std::optional<PartLevel> level = limb_level(part)) limbs.push_back(new_tip(part.top, *level));
     std::sort(limbs.begin(), limbs.end(), [](const LimbTip& a, const LimbTip& b) {
       return a.measures.depth != b.measures.depth ? a.measures.depth > b.measures.depth : a.vertex < b.vertex;
@@ -170,47 +174,55 @@ class LimbCompletion {
       if ((surface_.position[w] - surface_.position[v]).norm() <= reach) outside_[w] = 0;
   }
 
-  // The way from the skeleton to v: straight from the nearest point that sees v, or through the solid.
-  bool find_way(Index v, GraphPoint& start, std::vector<Vector3>& way) {
+  // The way from the skeleton to v in steps: straight from the nearest point that sees v, or through the
+  // solid.
+  bool find_way(Index v, double step, GraphPoint& start, std::vector<Vector3>& way) {
     const Vector3& target = surface_.position[v];
     const auto own = [&](Index hub) { return hub_component_[hub] == surface_.component[v]; };
     const auto points =
         nearest_points(graph_, target, own, [&](Index arc) { return own(graph_.arcs[arc].hub[0]); });
     if (points.empty()) return false;
     const auto reaches = [&] {
-      return (way.back() - target).norm() <= 2 * std::max(step_, solid_.distance(way.back()));
+      return (way.back() - target).norm() <= 2 * std::max(step, solid_.distance(way.back()));
     };
     for (const auto& [distance, point] : points) {
       const Vector3& x = point.position;
-      if (solid_.segment_crosses(x, x + 0.98 * (target - x))) continue;
+      // From outside, where the skeleton could not be led inside, the surface is in sight as well.
+      if (solid_.segment_crosses(x, x + 0.98 * (target - x)) || !solid_.inside(x)) continue;
       start = point;
       way.assign(1, x);
-      lead_towards(way, target, solid_, step_);
+      lead_towards(way, target, solid_, step);
       // Along a thin limb the straight way may graze the surface.
       if (!reaches()) break;
       return way.size() > 2;
     }
     inner_.prepare();
-    if (!inner_.usable(v)) return false;
+    if (!inner_.usable(v) || !solid_.inside(inner_.point(v))) return false;
     start = points.front().second;
+    // What is nearest across a gap is far through the solid.
+    if (const Index arc = graph_.arc_of_vertex[v]; arc != kNone && graph_.arcs[arc].alive) {
+      const auto on_arc = [&](const auto& p) { return p.second.arc == arc; };
+      const auto nearest = std::find_if(points.begin(), points.end(), on_arc);
+      if (nearest != points.end()) start = nearest->second;
+    }
     std::vector<Vector3> between;
-    if (!inner_.path(start.position, inner_.point(v), between)) return false;
+    if (!inner_.path(start.position, inner_.point(v), between, kMostOfWay)) return false;
     way.assign(1, start.position);
     way.insert(way.end(), between.begin(), between.end());
     const std::size_t inside = way.size();
-    lead_towards(way, target, solid_, step_);
+    lead_towards(way, target, solid_, step);
     if (!reaches()) {  // the target's own chord leads there for certain
       way.resize(inside);
       way.push_back(inner_.point(v));
-      lead_towards(way, target, solid_, step_);
+      lead_towards(way, target, solid_, step);
     }
     return way.size() > 2;
   }
 
-  bool try_limb(Index v) {
+  bool try_limb(Index v, double half_width) {
     GraphPoint start;
     std::vector<Vector3> way;
-    if (!find_way(v, start, way)) return false;
+    if (!find_way(v, step_for_width(half_width, step_), start, way)) return false;
     // A few rounds of centring with the start held.
     way = centred_alone(way, solid_, step_);
     if (solid_.segment_crosses(start.position, way.front())) return false;

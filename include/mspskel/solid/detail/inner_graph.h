@@ -43,8 +43,10 @@ class InnerPaths {
     marks_.assign(surface_.position.size(), {});
   }
 
-  // Points strictly between a and b along the cheapest path, or false. Cost: what the search comes by.
-  bool path(const Vector3& a, const Vector3& b, std::vector<Vector3>& between) {
+  // Points strictly between a and b along the cheapest path, or false, also where the search comes by more
+  // than `most` vertices. Cost: what it comes by.
+  bool path(const Vector3& a, const Vector3& b, std::vector<Vector3>& between,
+            Index most = std::numeric_limits<Index>::max()) {
     for (const Index v : marked_) marks_[v] = {};
     marked_.clear();
     std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
@@ -55,6 +57,7 @@ class InnerPaths {
       queue.pop();
       // Whether an edge stays inside is asked where it would be the cheapest way, which few edges are.
       if (marks_[v].done || (before != kNone && solid_.segment_crosses(point_[before], point_[v]))) continue;
+      if (most-- <= 0) return false;
       mark(v).done = true;
       marks_[v].before = before;
       if (marks_[v].goal) {
