@@ -153,7 +153,7 @@ def compare(truth, made):
     outcome.leaves = len(leaves)
     limbs = [truth.limb(tip) for tip in tips]
     wanted = [length >= LEAST_TIP * own for length, own in limbs]
-    outcome.wanted = sum(wanted)
+    outcome.wanted = int(sum(wanted))
     taken = set()
     if tips and leaves:
         away = np.linalg.norm(truth.points[tips][:, None] - made.points[leaves][None], axis=2)
@@ -162,8 +162,9 @@ def compare(truth, made):
         for row, column in zip(rows, columns):
             if away[row, column] <= REACH:
                 taken.add(column)
-                wanted[row] and outcome.ends.append(away[row, column])
-                outcome.found += wanted[row]
+                if wanted[row]:
+                    outcome.ends.append(float(away[row, column]))
+                outcome.found += int(wanted[row])
                 wanted[row] = False
     outcome.missed = [truth.points[tip].round(2).tolist() for tip, is_missed in zip(tips, wanted) if is_missed]
     outcome.false = [made.points[leaf].round(2).tolist() for k, leaf in enumerate(leaves) if k not in taken]

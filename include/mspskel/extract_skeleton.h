@@ -41,6 +41,8 @@ struct ExtractOptions {
   // are carried over to its vertices. Where it has fewer and long edges, all runs on one with those edges
   // cut, and the input gets what its own vertices have there.
   bool coarsen = true;
+  // It gets more vertices where many limbs are thin, so that about four go round each of them; limb_vertices
+  // grow in the same ratio.
   CoarseningOptions coarsening;
   SubdivisionOptions subdivision;
   // Limbs are told on a surface of so many vertices where the input is finer; [4, 2^31). With no more than

@@ -24,7 +24,8 @@ void add_slice_options(CommandLine& line, ExtractOptions& options, int& planes) 
       "coarsen", options.coarsen,
       "work on a coarser surface where the mesh is finer than needed, and cut long edges where it is sparse");
   line.number("--coarse-vertices", options.coarsening.vertices, {4, 1e9},
-              "what a finer mesh is coarsened to; arcs are still centred in the mesh itself");
+              "what a finer mesh is coarsened to, or to more where its limbs are thin; arcs are still "
+              "centred in the mesh itself");
   line.number("--limb-vertices", options.limb_vertices, {4, 1e9},
               "vertices of the surface on which limbs are told, where the mesh is finer");
   line.choice<SliceMethod>("--slice-method", options.slices,

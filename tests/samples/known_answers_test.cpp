@@ -73,6 +73,7 @@ TEST_CASE("a skeleton has the ends and loops and the course of the one that the 
                                          {"box"},
                                          {"ellipsoid"},
                                          {"airway", 2},
+                                         {"tree", 20},
                                          {"y-tube"},
                                          {"capsule"}}) {
     INFO(c.name << " " << c.count

@@ -17,6 +17,7 @@
 #include "mspskel/mesh/orient_shells.h"
 #include "mspskel/pipeline/detail/carry_over.h"
 #include "mspskel/pipeline/detail/collapse_stages.h"
+#include "mspskel/pipeline/detail/follow_width.h"
 #include "mspskel/pipeline/detail/limb_surface.h"
 #include "mspskel/pipeline/detail/stage_clock.h"
 #include "mspskel/pipeline/detail/vertex_stages.h"
@@ -26,39 +27,9 @@
 namespace mspskel {
 namespace detail {
 
-inline void coarsen(const SurfaceSnapshot& shells, const ExtractOptions& options, LimbSurface& limbs,
-                    ExtractResult& result) {
-  limbs = {};
-  result.coarse.reset();
-  if (options.coarsen && shells.vertex_count() > options.coarsening.vertices)
-    result.coarse = coarsen_in_steps(shells, options, limbs);
-}
-
-// On the coarse surface, or on `shells`, which bounds `solid` where that is given. What the slices are like
-// tells whether a thin shape needs more vertices than it got.
-inline void run_vertex_stages(const SurfaceSnapshot& shells, const BoundingVolumeHierarchy* solid,
-                              const ExtractOptions& options, LimbSurface& limbs, ExtractResult& result,
-                              StageClock& clock) {
-  const auto run = [&] {
-    if (result.coarse)
-      run_vertex_stages(result.coarse->surface, nullptr, options, result, clock);
-    else
-      run_vertex_stages(shells, solid, options, result, clock);
-  };
-  run();
-  if (!result.coarse) return;
-  const SurfaceSnapshot& coarse = result.coarse->surface;
-  const std::optional<ExtractOptions> more =
-      finer(options, vertices_for_width(coarse, result.slices), coarse.vertex_count());
-  if (!more) return;
-  coarsen(shells, *more, limbs, result);
-  clock.lap("coarsening");
-  run();
-}
-
 // A surface of one component, and what bounds its solid where that is more than the surface itself.
 inline ExtractResult extract_component(SurfaceSnapshot surface, const SurfaceSnapshot* bounds,
-                                       const ExtractOptions& options) {
+                                       const ExtractOptions& given) {
   ExtractResult result;
   StageClock clock(result.seconds);
   result.surface = std::move(surface);
@@ -67,21 +38,32 @@ inline ExtractResult extract_component(SurfaceSnapshot surface, const SurfaceSna
   const SurfaceSnapshot& shells = oriented ? *oriented : result.surface;
   LimbSurface limbs;
   std::shared_ptr<const BoundingVolumeHierarchy> hierarchy;
+  const bool coarsens = given.coarsen && shells.vertex_count() > given.coarsening.vertices;
   run_beside(
-      options.execution,
+      given.execution,
       [&] {
-        coarsen(shells, options, limbs, result);
-        if (result.coarse) clock.lap("coarsening");
+        if (!coarsens) return;
+        result.coarse = coarsen_in_steps(shells, given, limbs);
+        clock.lap("coarsening");
       },
       [&](const Execution& aside) {
         hierarchy = std::make_shared<const BoundingVolumeHierarchy>(
             bounds != nullptr ? *bounds : result.surface, aside.progress);
       });
+  clock.lap("hierarchy");
+  // How wide the limbs are only the solid shows. Few shapes ask for another surface.
+  const ExtractOptions options = coarsens ? following_width(shells, *hierarchy, given) : given;
+  if (options.coarsening.vertices > given.coarsening.vertices) {
+    limbs = {};
+    result.coarse.reset();
+    if (shells.vertex_count() > options.coarsening.vertices)
+      result.coarse = coarsen_in_steps(shells, options, limbs);
+    clock.lap("coarsening");
+  }
   if (bounds == nullptr) result.solid = hierarchy;
   const BoundingVolumeHierarchy& solid = *hierarchy;
-  clock.lap("hierarchy");
-  run_vertex_stages(shells, bounds == nullptr ? &solid : nullptr, options, limbs, result, clock);
   const SurfaceSnapshot& working = result.coarse ? result.coarse->surface : shells;
+  run_vertex_stages(working, result.coarse || bounds != nullptr ? nullptr : &solid, options, result, clock);
   std::vector<LimbTip> tips;
   CoarseLabels coarse_labels;
   run_beside(

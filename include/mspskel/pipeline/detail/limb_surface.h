@@ -37,31 +37,6 @@ inline CoarseSurface coarsen_in_steps(const SurfaceSnapshot& input, const Extrac
   return coarse;
 }
 
-// How many vertices a surface needs so that about five of them go round each of its parts, however thin. A
-// body that is about as long as wide needs none to speak of, a sheet is as wide as it is, and a branching
-// shape needs as many as it is longer than wide.
-inline double vertices_for_width(const SurfaceSnapshot& surface, const VertexSlices& slices) {
-  constexpr double kOfPerimeterSquare = 24;
-  double squares = 0;
-  for (Index v = 0; v < surface.vertex_count(); ++v)
-    if (slices.valid[v])  // slices round less than the vertex's own surface are corners
-      squares += surface.vertex_area[v] /
-                 std::max(slices.perimeter[v] * slices.perimeter[v], 4 * surface.vertex_area[v]);
-  return kOfPerimeterSquare * squares;
-}
-
-// The options with which a surface gets so many vertices, where it got much fewer; nothing otherwise.
-inline std::optional<ExtractOptions> finer(const ExtractOptions& options, double wanted, Index count) {
-  constexpr double kFewer = 2;
-  if (wanted < kFewer * count) return std::nullopt;
-  const double more = wanted / options.coarsening.vertices;
-  ExtractOptions result = options;
-  const auto scaled = [&](Index n) { return static_cast<Index>(std::min(1e9, more * n)); };
-  result.coarsening.vertices = scaled(options.coarsening.vertices);
-  result.limb_vertices = scaled(options.limb_vertices);
-  return result;
-}
-
 // `slices` are of the surface that the stages walk on, and so are the vertices of the tips.
 inline std::vector<LimbTip> limb_tips(const SurfaceSnapshot& input, const LimbSurface& limbs,
                                       const BoundingVolumeHierarchy& solid, const VertexSlices& slices,

@@ -1,0 +1,83 @@
+// How fine the surfaces have to be for the thinnest limbs of a shape.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <vector>
+
+#include "mspskel/base/value_at_rank.h"
+#include "mspskel/extract_skeleton.h"
+#include "mspskel/solid/detail/inward_chord.h"
+
+namespace mspskel {
+namespace detail {
+
+// Half of the limb's width at a vertex; nothing where there is no chord. In the middle of the chord inward, a
+// fan of rays across the chord: in a tube those along its axis are long and most others are about as long as
+// half the chord, in a plate all are long. So the third shortest of eight is the half width of what is thin
+// in two directions.
+inline std::optional<double> limb_half_width(const SurfaceSnapshot& surface,
+                                             const BoundingVolumeHierarchy& solid, Index v) {
+  const auto chord = inward_chord(surface, solid, v);
+  if (!chord) return std::nullopt;
+  const Vector3 inward = -surface.normal[v].normalized(), across = inward.unitOrthogonal();
+  std::array<double, 8> ray;
+  solid.ray_fan(chord->start + 0.5 * chord->length * inward, across, inward.cross(across),
+                static_cast<int>(ray.size()), ray.data());
+  std::nth_element(ray.begin(), ray.begin() + 2, ray.end());
+  return std::max(0.5 * chord->length, ray[2]);
+}
+
+struct WidthDemand {
+  double vertices = 0;  // of a surface whose edges are everywhere 0.85 as long as the limb is wide by half
+  double thinnest = 0;  // half width of the thinnest limbs
+};
+
+// From places at equal steps of the area. The thinnest fiftieth of them, where walls touch, counts no more
+// than the next. About ten vertices go round a tube. Cost: O(vertices) and 600 fans.
+inline WidthDemand demand_of_width(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid) {
+  constexpr int kPlaces = 600;
+  constexpr double kEdge = 0.85, kThinnest = 0.02;
+  const double total = std::accumulate(surface.vertex_area.begin(), surface.vertex_area.end(), 0.0);
+  std::vector<double> widths;
+  double passed = 0;
+  int taken = 0;
+  for (Index v = 0; v < surface.vertex_count(); ++v) {
+    passed += surface.vertex_area[v];
+    if (passed * kPlaces < total * (taken + 0.5)) continue;
+    taken = static_cast<int>(std::floor(passed * kPlaces / total + 0.5));
+    const std::optional<double> width = limb_half_width(surface, solid, v);
+    if (width && *width > 0) widths.push_back(*width);
+  }
+  WidthDemand demand;
+  if (widths.empty()) return demand;
+  demand.thinnest = value_at_rank(widths, kThinnest);
+  double sum = 0;
+  for (const double width : widths) sum += 1 / std::pow(std::max(width, demand.thinnest), 2);
+  // A vertex stands for two equilateral triangles.
+  demand.vertices = total * sum / static_cast<double>(widths.size()) / (0.5 * std::sqrt(3.0) * kEdge * kEdge);
+  return demand;
+}
+
+// The options for a surface whose limbs are too thin for the number of vertices that they name: more
+// vertices, in steps of √2 so that no single place decides, and no feature is noise that is as large as the
+// thinnest limbs are wide by half.
+inline ExtractOptions following_width(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
+                                      ExtractOptions options) {
+  const WidthDemand demand = demand_of_width(surface, solid);
+  const double least = options.coarsening.vertices;
+  const double steps = std::ceil(2 * std::log2(demand.vertices / least));
+  if (!(steps > 0)) return options;
+  const double wanted = std::min<double>(least * std::pow(2, 0.5 * steps), surface.vertex_count());
+  options.coarsening.vertices = static_cast<Index>(std::lround(wanted));
+  options.limb_vertices = std::max(options.limb_vertices, options.coarsening.vertices);
+  LimbOptions& limbs = options.refinement.limbs;
+  limbs.smallest = std::min(limbs.smallest, demand.thinnest);
+  return options;
+}
+
+}  // namespace detail
+}  // namespace mspskel
