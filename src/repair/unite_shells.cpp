@@ -44,15 +44,19 @@ double extent_of(const std::vector<Shell>& shells, const std::vector<Index>& mem
 
 double cell_for(const SurfaceSnapshot& surface, const std::vector<Shell>& shells,
                 const std::vector<Index>& members, const UniteOptions& options) {
-  constexpr double kCoarsest = 0.01, kFinest = 0.001, kCellsAcross = 3, kNodesNear = 3e5, kNodesACell = 6;
+  constexpr double kCoarsest = 0.01, kFinest = 0.001, kCellsAcross = 3, kNodesACell = 6;
+  // Few faces tell of few details.
+  constexpr double kNodesAFace = 20, kFewestNodes = 6e4, kMostNodes = 3e5;
   const double extent = extent_of(shells, members);
   if (options.cell > 0) return options.cell * extent;
-  double thinnest = extent, area = 0;
+  double thinnest = extent, area = 0, faces = 0;
   for (const Index m : members) {
     thinnest = std::min(thinnest, thickness(surface, shells[m]));
+    faces += static_cast<double>(shells[m].faces.size());
     for (const Index f : shells[m].faces) area += surface.face_normal_times_twice_area(f).norm() / 2;
   }
-  const double affordable = std::sqrt(kNodesACell * area / kNodesNear);
+  const double nodes = std::clamp(kNodesAFace * faces, kFewestNodes, kMostNodes);
+  const double affordable = std::sqrt(kNodesACell * area / nodes);
   return std::clamp(thinnest / kCellsAcross, std::max(kFinest * extent, affordable),
                     std::max(kCoarsest * extent, affordable));
 }

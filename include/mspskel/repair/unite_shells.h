@@ -12,8 +12,8 @@ namespace mspskel {
 
 struct UniteOptions {
   // Side of the grid's cells, as a share of the united shells' extent; [0.001, 0.1]. 0: a third of the
-  // thinnest shell's thickness, at most a hundredth, and not so fine that more than about 300,000 nodes lie
-  // near the surface.
+  // thinnest shell's thickness, at most a hundredth, and not so fine that more than about 20 nodes a face of
+  // the shells lie near the surface, or 60,000 where they have few faces, or 300,000 where they have many.
   double cell = 0.0;
 };
 
