@@ -55,13 +55,13 @@ VisibleSection visible_section(const BoundingVolumeHierarchy& solid, const Vecto
 VisibleSection visible_section(const BoundingVolumeHierarchy& solid, const Vector3& x, const Vector3& tangent,
                                int rays);
 
-// Resamples every arc at options.step, thinner ones at steps as much shorter as they are thinner than a
-// hundredth of the extent or so (detail/own_step.h), and centres it: minimises Σ w|x − c|² + μ Σ|x − mean of
-// neighbours|² over all points, with c the section's centre, w = roundness² / (1 + (|c − x| / 0.7 R)⁴) and μ
-// = smoothness · (distance to the surface / step)² · (0.008 / step)²; leaf ends stay in their section, or
-// where they are if `held` names their hubs; joints are nearly free. Steps that would cut a corner through
-// the surface keep the corner between them. A point moves only as far as its edges stay off the surface, so
-// what is inside stays inside, and as far as no edge sweeps over a handle, so cycles keep their classes.
+// Resamples every arc at options.step, those whose half width is below 0.006 of the extent at steps as much
+// shorter as they are thinner, and centres it: minimises Σ w|x − c|² + μ Σ|x − mean of neighbours|² over all
+// points, with c the section's centre, w = roundness² / (1 + (|c − x| / 0.7 R)⁴) and μ = smoothness ·
+// (distance to the surface / own step)² · (0.008 / options.step)²; leaf ends stay in their section, or where
+// they are if `held` names their hubs; joints are nearly free. Steps that would cut a corner through the
+// surface keep the corner between them. A point moves only as far as its edges stay off the surface, so what
+// is inside stays inside, and as far as no edge sweeps over a handle, so cycles keep their classes.
 // Cost: O(points · rays · log faces) a round. Throws UsageError, Cancelled.
 void center_arcs(ArcGraph& graph, const BoundingVolumeHierarchy& solid, const CenteringOptions& options,
                  const Execution& execution = {}, const CrossingLabels& crossings = {},
