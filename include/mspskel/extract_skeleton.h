@@ -41,8 +41,9 @@ struct ExtractOptions {
   // are carried over to its vertices. Where it has fewer and long edges, all runs on one with those edges
   // cut, and the input gets what its own vertices have there.
   bool coarsen = true;
-  // It gets more vertices where many limbs are thin, so that about four go round each of them; limb_vertices
-  // grow in the same ratio.
+  // It gets more vertices where many limbs are thin: so many that an edge is no longer than half of the
+  // limb's width. Then limb_vertices are no fewer, and features as large as the thinnest limbs' half width
+  // are limbs.
   CoarseningOptions coarsening;
   SubdivisionOptions subdivision;
   // Limbs are told on a surface of so many vertices where the input is finer; [4, 2^31). With no more than
