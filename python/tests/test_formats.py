@@ -98,7 +98,7 @@ def test_plot_with_matplotlib(ring, monkeypatch):
 
 def test_the_truth_of_a_sample():
     truth = mspskel.sample_truth("table", count=3, section="round")
-    assert len(truth.terminals) == 3
+    assert len(truth.terminals()) == 3
     with pytest.raises(mspskel.UsageError, match="no defined skeleton"):
         mspskel.sample_truth("sphere")
     box = mspskel.sample("box", sides=(1, 2, 8))[0]

@@ -35,15 +35,13 @@ void certify(const RunOptions& run, CertificateDepth depth, CheckedExtraction& m
   made.failure = std::move(verdict.failure);
 }
 
-CheckedExtraction extract_from(MeshInput input, const RunOptions& run, CertificateDepth depth) {
-  CheckedExtraction made;
-  made.input = std::move(input);
+// Of made.input.
+void extract_from_input(const RunOptions& run, CertificateDepth depth, CheckedExtraction& made) {
   made.result = extract_skeleton(made.input.built.mesh, run.extract);
   end_at_open_ends(made.input, run.extract, made.result);
   std::vector<std::string>& warnings = made.result.warnings;
   warnings.insert(warnings.begin(), made.input.built.warnings.begin(), made.input.built.warnings.end());
   certify(run, depth, made);
-  return made;
 }
 
 // A wrap has no open ends any more, and is no better than another wrap.
@@ -54,17 +52,23 @@ bool may_be_wrapped(const CheckedExtraction& made, const RunOptions& run) {
 
 }  // namespace
 
-CheckedExtraction extract_checked(const PolygonSoup& soup, MeshInput input, const RunOptions& run,
+// OpenMesh's meshes are copied where they are moved, and a copy that runs out of memory cannot be destroyed:
+// so as few moves as can be.
+CheckedExtraction extract_checked(const PolygonSoup& soup, MeshInput&& input, const RunOptions& run,
                                   CertificateDepth depth) {
-  CheckedExtraction made = extract_from(std::move(input), run, depth);
+  CheckedExtraction made;
+  made.input = std::move(input);
+  extract_from_input(run, depth, made);
   if (!may_be_wrapped(made, run)) return made;
-  MeshInput wrapped = wrap_mesh(soup, run.repair, run.extract.execution);
-  CheckedExtraction again = extract_from(std::move(wrapped), run, depth);
+  CheckedExtraction again;
+  again.input = wrap_mesh(soup, run.repair, run.extract.execution);
+  extract_from_input(run, depth, again);
   if (!again.failure.empty()) return made;
   std::vector<std::string>& warnings = again.result.warnings;
   warnings.insert(warnings.begin(), "of the mesh's own surface, " + made.failure);
   write_surface(again.input, run.repair);
-  return again;
+  made = std::move(again);
+  return made;
 }
 
 Json facts_of(const std::string& file, const CheckedExtraction& made) {

@@ -26,7 +26,7 @@ struct CheckedExtraction {
 // (RunOptions::least_inside), the surface does not say where its solid is: limbs that rounding has pressed
 // flat, sheets folded through each other. Then the soup is wrapped, unless the settings decide otherwise, and
 // the wrap's skeleton is taken if it passes. Throws as extract_skeleton and prepare_mesh do.
-CheckedExtraction extract_checked(const PolygonSoup& soup, MeshInput input, const RunOptions& run,
+CheckedExtraction extract_checked(const PolygonSoup& soup, MeshInput&& input, const RunOptions& run,
                                   CertificateDepth depth);
 
 // make_report with what mending did.

@@ -87,9 +87,11 @@ class LimbTipSearch {
     }
   }
 
-  // Where the slices are narrower than the smallest feature, they tell what is small.
+  // Where the slices are narrower than the usual smallest feature, what is small is as much smaller.
   double smallest_feature(Index v) const {
-    return slices_.valid[v] ? std::min(options_.smallest, slices_.half_width[v]) : options_.smallest;
+    const double usual = LimbOptions().smallest;
+    return slices_.valid[v] ? options_.smallest * std::min(1.0, slices_.half_width[v] / usual)
+                            : options_.smallest;
   }
 
   // Whether the part holds a limb.

@@ -121,7 +121,8 @@ class LimbCompletion {
       if (outside_[v] > 0) beyond.push_back(v);
     // On something thin a twig is told by its own scale, which is that of what carries it.
     const double least = std::max(kLeastProtrusion * options_.smallest, step_);
-    const auto least_depth = [&](Index v) { return std::min(least, carrier_[v]); };
+    const double usual = kLeastProtrusion * LimbOptions().smallest;
+    const auto least_depth = [&](Index v) { return least * std::min(1.0, carrier_[v] / usual); };
     std::vector<LimbTip> limbs;
     for (const SlenderPart& part : slender_parts(surface_, outside_, std::move(beyond), least_depth))
       if (const std::optional<PartLevel> level = limb_level(part)) limbs.push_back(new_tip(part.top, *level));
@@ -206,7 +207,9 @@ class LimbCompletion {
       if (nearest != points.end()) start = nearest->second;
     }
     std::vector<Vector3> between;
-    if (!inner_.path(start.position, inner_.point(v), between, kMostOfWay)) return false;
+    // From the limb, which leads to the body by few vertices; from the body all of it comes first.
+    if (!inner_.path(inner_.point(v), start.position, between, kMostOfWay)) return false;
+    std::reverse(between.begin(), between.end());
     way.assign(1, start.position);
     way.insert(way.end(), between.begin(), between.end());
     const std::size_t inside = way.size();
