@@ -92,7 +92,7 @@ Image planes_picture(const Study& study, const Painter& painter) {
     images.push_back(painter.msp(run.perimeter));
     labels.push_back(std::to_string(run.planes) + " slices");
   }
-  return row(images, labels, static_cast<int>(kThresholds.size()));
+  return row(images, labels, static_cast<int>(kPlanes.size()));
 }
 
 // One quantity of all vertices, before or after the refinement.
