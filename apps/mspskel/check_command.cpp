@@ -1,8 +1,9 @@
 // mspskel check MESH SKELETON: is this the skeleton of that mesh?
 #include <cstdio>
-#include <iostream>
+#include <optional>
 
 #include "certificate.h"
+#include "checked_extraction.h"
 #include "commands.h"
 #include "distinct_files.h"
 #include "mesh_input.h"
@@ -21,8 +22,18 @@
 namespace mspskel::cli {
 namespace {
 
-void print(const SkeletonChecks& c, const TopologyCertificate& certificate,
-           const std::vector<UncoveredPart>& uncovered) {
+struct Checked {
+  SkeletonChecks checks;
+  TopologyCertificate certificate;
+  std::vector<UncoveredPart> uncovered;
+  bool wrapped = false;  // the surface that it was checked against
+  std::string failure;   // a sentence; empty: none
+};
+
+void print(const Checked& checked) {
+  const SkeletonChecks& c = checked.checks;
+  const TopologyCertificate& certificate = checked.certificate;
+  if (checked.wrapped) std::printf("surface      that round the mesh, which extraction wraps\n");
   std::printf("topology     %s: %s and %s on a surface of %s and genus %d\n", c.topology ? "right" : "WRONG",
               counted(c.b0, "piece").c_str(), counted(c.b1, "cycle").c_str(),
               counted(c.components, "component").c_str(), c.genus);
@@ -36,8 +47,9 @@ void print(const SkeletonChecks& c, const TopologyCertificate& certificate,
   std::printf("off centre   mean %.4f, 90th percentile %.4f (0: centred, 1: at the wall)\n",
               c.off_centre_mean, c.off_centre_p90);
   std::printf("cover        mean %.4f, 95th percentile %.4f of the diagonal\n", c.cover_mean, c.cover_p95);
-  if (uncovered.empty()) std::printf("coverage     every part of %.3g widths has an arc\n", kMissedWidths);
-  for (const UncoveredPart& part : uncovered)
+  if (checked.uncovered.empty())
+    std::printf("coverage     every part of %.3g widths has an arc\n", kMissedWidths);
+  for (const UncoveredPart& part : checked.uncovered)
     std::printf("coverage     NO ARC in a part of %.2g widths at %.6g %.6g %.6g\n", part.widths,
                 part.position.x(), part.position.y(), part.position.z());
   std::printf("graph        %s, %s, %s, %s, %s\n", counted(c.nodes, "node").c_str(),
@@ -72,6 +84,11 @@ class CheckCommand : public Command {
   int run() override;
 
  private:
+  Checked check_against(const MeshInput& input, const CurveSkeleton& read) const;
+  // Nothing where extraction with the same repair options would not wrap the mesh.
+  std::optional<Checked> check_against_wrap(const PolygonSoup& soup, const MeshInput& input,
+                                            const CurveSkeleton& read) const;
+
   std::string mesh_path_, skeleton_path_, json_path_;
   double least_inside_ = 1;
   bool quiet_ = false;
@@ -80,28 +97,53 @@ class CheckCommand : public Command {
   RepairSettings repair_;
 };
 
+Checked CheckCommand::check_against(const MeshInput& input, const CurveSkeleton& read) const {
+  const SurfaceSnapshot surface = make_snapshot(input.built.mesh);
+  const CurveSkeleton skeleton = input.of_surface(read);
+  const BoundingVolumeHierarchy solid(surface);
+  const VolumeCocycles cocycles = compute_volume_cocycles(surface, {}, cocycle_options_);
+  Checked checked;
+  checked.wrapped = input.wrapped.has_value();
+  SkeletonChecks& checks = checked.checks;
+  checks = check_skeleton(surface, solid, skeleton, execution_);
+  checked.certificate = certify(surface, cocycles, solid, skeleton, CertificateDepth::kFull, execution_);
+  checks.genus -= checked.certificate.small_handles;
+  checks.topology = checks.b0 == checks.components && checks.b1 == checks.genus;
+  checked.uncovered = find_uncovered_parts(surface, solid, skeleton, CoverageOptions{}, execution_);
+  checked.failure = judge(surface, checked.certificate, checked.uncovered, least_inside_).failure;
+  if (checked.failure.empty() && least_inside_ >= 1 && !checks.contained)
+    checked.failure = "the skeleton leaves the solid";
+  return checked;
+}
+
+// Extraction wraps a mesh whose own surface carries no skeleton, so such a mesh is extracted to know it.
+std::optional<Checked> CheckCommand::check_against_wrap(const PolygonSoup& soup, const MeshInput& input,
+                                                        const CurveSkeleton& read) const {
+  RunOptions run;
+  run.repair = repair_;
+  run.extract.execution = execution_;
+  const CheckedExtraction made = extract_checked(soup, MeshInput(input), run, CertificateDepth::kVerdict);
+  if (!made.input.wrapped) return std::nullopt;
+  return check_against(made.input, read);
+}
+
 int CheckCommand::run() {
   repair_.resolve();
   refuse_shared_files({{mesh_path_, "the mesh"}, {skeleton_path_, "the skeleton"}},
                       {{json_path_, "the figures"}});
-  const MeshInput input = prepare_mesh(read_polygon_soup(mesh_path_), repair_, execution_);
-  const SurfaceSnapshot surface = make_snapshot(input.built.mesh);
-  const CurveSkeleton skeleton = input.of_surface(read_skeleton(skeleton_path_));
-  const BoundingVolumeHierarchy solid(surface);
-  const VolumeCocycles cocycles = compute_volume_cocycles(surface, {}, cocycle_options_);
-  SkeletonChecks checks = check_skeleton(surface, solid, skeleton, execution_);
-  const TopologyCertificate certificate =
-      certify(surface, cocycles, solid, skeleton, CertificateDepth::kFull, execution_);
-  checks.genus -= certificate.small_handles;
-  checks.topology = checks.b0 == checks.components && checks.b1 == checks.genus;
-  const std::vector<UncoveredPart> uncovered =
-      find_uncovered_parts(surface, solid, skeleton, CoverageOptions{}, execution_);
-  const Verdict verdict = judge(surface, certificate, uncovered, least_inside_);
-  if (!json_path_.empty())
-    write_file_atomically(json_path_, report_text(checks_json(checks, certificate, uncovered)));
-  if (!quiet_ && json_path_ != "-") print(checks, certificate, uncovered);
-  if (!verdict.failure.empty()) throw NoSkeletonError(verdict.failure);
-  if (least_inside_ >= 1 && !checks.contained) throw NoSkeletonError("the skeleton leaves the solid");
+  const PolygonSoup soup = read_polygon_soup(mesh_path_);
+  const MeshInput input = prepare_mesh(soup, repair_, execution_);
+  const CurveSkeleton skeleton = read_skeleton(skeleton_path_);
+  Checked checked = check_against(input, skeleton);
+  if (!checked.failure.empty() && !input.wrapped && repair_.wrap_mode == WrapMode::kAuto)
+    if (const std::optional<Checked> of_wrap = check_against_wrap(soup, input, skeleton)) checked = *of_wrap;
+  if (!json_path_.empty()) {
+    Json figures = checks_json(checked.checks, checked.certificate, checked.uncovered);
+    figures["wrapped"] = checked.wrapped;
+    write_file_atomically(json_path_, report_text(figures));
+  }
+  if (!quiet_ && json_path_ != "-") print(checked);
+  if (!checked.failure.empty()) throw NoSkeletonError(checked.failure);
   return 0;
 }
 

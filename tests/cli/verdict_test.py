@@ -138,6 +138,9 @@ class Crushed(ProgramTest):
         report = json.loads((self.folder / "r.json").read_text())
         self.assertEqual((report["repair"]["wrapped"], report["checks"]["inside"]), (True, 1))
         self.assertIn(b"100 % of the length", self.run_program("check", "w.off", "a.skel").stdout)
+        result = self.run_program("check", "crushed.off", "a.skel", "--json", "-")
+        self.assertEqual((result.returncode, json.loads(result.stdout)["wrapped"]), (DONE, True), result.stderr)
+        self.assertEqual(self.run_program("check", "crushed.off", "a.skel", "-q", "--wrap", "never").returncode, NO_SKELETON)
 
     def test_is_refused_where_it_may_not_be_wrapped(self):
         mesh = self.crushed()
