@@ -194,7 +194,7 @@ TEST_CASE("A piece that moves as a whole does not leave the solid") {
     detail::ArcPoints points(graph);
     std::vector<Vector3> goal;
     for (const Vector3& x : points.x) goal.push_back(x + Vector3(way, way, 0));
-    detail::move_inside(points, solid.hierarchy, goal, CrossingLabels());
+    detail::move_inside(points, solid.hierarchy, goal, CrossingLabels(), {});
     for (const Vector3& x : points.x) CHECK(solid.hierarchy.inside(x));
   }
 }

@@ -1,9 +1,11 @@
 // Arcs and hubs outside the solid move inside, into their own limb.
 #include "mspskel/arcs/route_inside.h"
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <type_traits>
 
+#include "mspskel/arcs/detail/hub_components.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/samples/skin_graph.h"
 #include "support/arc_graphs.h"
@@ -24,6 +26,22 @@ TEST_CASE("A map of another surface's vertices is refused before anything is rea
   CHECK_THROWS_WITH(route_inside(graph, fine.hierarchy, fine.surface),
                     Catch::Contains("the graph's map is of"));
   CHECK(route_inside(graph, coarse.hierarchy, coarse.surface).hubs_moved == 1);
+}
+
+TEST_CASE("Every hub of a piece that stands for some vertex has that vertex's component") {
+  const Solid solid(sphere(200));
+  ArcGraph graph;
+  for (int i = 0; i < 5; ++i) graph.add_hub(Vector3(0.1 * i, 0, 0));
+  // The vertices stand for hub 2; hubs 0 and 1 hang on it, hubs 3 and 4 are a piece without vertices.
+  for (const auto& [from, to] : {std::array<Index, 2>{0, 1}, {1, 2}, {3, 4}}) {
+    Arc arc;
+    arc.hub = {from, to};
+    arc.points = {graph.hub_position[from], graph.hub_position[to]};
+    graph.arcs.push_back(arc);
+  }
+  graph.arc_of_vertex.assign(solid.surface.position.size(), kNone);
+  graph.hub_of_vertex.assign(solid.surface.position.size(), 2);
+  CHECK(mspskel::detail::hub_components(graph, solid.surface) == std::vector<Index>{0, 0, 0, kNone, kNone});
 }
 
 TEST_CASE("An arc across the hole of a torus comes back through the ring") {

@@ -73,8 +73,8 @@ class CrossingLabels {
   void index_regions(const VolumeCocycles& cocycles);
   void index_loops();
   Vector3 in_view(const Vector3& p) const;
-  // Whether an edge of a loop may be above or below some edge between the points.
-  bool meets_loops(const std::vector<Vector3>& points) const;
+  // Whether a loop may pass through a closed polyline: it is near the points' box, in which a disc fills it.
+  bool may_link(const std::vector<Vector3>& points) const;
   CocycleLabel label(const Vector3& a, const Vector3& b, bool below, bool& clear) const;
   static int region_crossing(const Row& row, const Vector3& a, const Vector3& b);
 
@@ -82,8 +82,9 @@ class CrossingLabels {
   std::vector<Row> rows_;    // per cocycle
   std::vector<Part> parts_;  // per entry of the labels
   std::vector<LoopEdge> loop_edges_;
-  detail::BoxIndex regions_;  // of rows
-  detail::BoxIndex loops_;    // of loop edges, in view coordinates, endless along the view
+  detail::BoxIndex regions_;     // of rows
+  detail::BoxIndex loops_;       // of loop edges, in view coordinates, endless along the view
+  detail::BoxIndex loop_boxes_;  // of loop edges, in view coordinates
 };
 
 }  // namespace mspskel

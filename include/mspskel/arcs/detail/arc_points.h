@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mspskel/arcs/arc_graph.h"
+#include "mspskel/base/progress.h"
 #include "mspskel/collapse/crossing_labels.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
 
@@ -88,16 +89,18 @@ inline std::vector<Vector3> resampled_inside(const Arc& arc, double step,
 class InsideMove {
  public:
   InsideMove(ArcPoints& points, const BoundingVolumeHierarchy& solid, const std::vector<Vector3>& goal,
-             const CrossingLabels& crossings)
+             const CrossingLabels& crossings, const Execution& execution)
       : points_(points),
         solid_(solid),
         goal_(goal),
         crossings_(crossings),
+        execution_(execution),
         share_(points.x.size(), 1.0),
         cuts_(points.x.size(), 0) {
     for (const auto& chain : points.chains)
       for (std::size_t i = 1; i < chain.size(); ++i) edges_.push_back({chain[i - 1], chain[i]});
     asked_.assign(edges_.size(), -1);
+    crosses_.assign(edges_.size(), 0);
   }
 
   void run() {
@@ -114,18 +117,39 @@ class InsideMove {
     ++cuts_[i];
   }
 
+  bool crosses(std::size_t e) const {
+    const auto [a, b] = edges_[e];
+    return solid_.segment_crosses(moved(a), moved(b)) ||
+           crossings_.goes_round({points_.x[a], points_.x[b], moved(b), moved(a)});
+  }
+
+  bool moves(std::size_t e) const {
+    const auto [a, b] = edges_[e];
+    return share_[a] != 0 || share_[b] != 0;
+  }
+
+  // An edge is asked again if the share of one of its ends was cut.
+  void ask(std::size_t e) {
+    const auto [a, b] = edges_[e];
+    if (asked_[e] == cuts_[a] + cuts_[b]) return;
+    asked_[e] = cuts_[a] + cuts_[b];
+    crosses_[e] = crosses(e);
+  }
+
+  // All are asked at once, and then again, in order, those whose ends the ones before have cut.
   bool cut_crossing_edges() {
+    std::fill(crosses_.begin(), crosses_.end(), 0);
+    parallel_for(
+        static_cast<Index>(edges_.size()), "arcs", execution_, [] { return 0; },
+        [&](Index e, int) {
+          if (moves(e)) ask(e);
+        });
     bool changed = false;
     for (std::size_t e = 0; e < edges_.size(); ++e) {
-      const auto [a, b] = edges_[e];
-      if (share_[a] == 0 && share_[b] == 0) continue;
-      // An edge that crossed nothing is asked again if the share of one of its ends was cut.
-      if (asked_[e] == cuts_[a] + cuts_[b]) continue;
-      asked_[e] = cuts_[a] + cuts_[b];
-      if (!solid_.segment_crosses(moved(a), moved(b)) &&
-          !crossings_.goes_round({points_.x[a], points_.x[b], moved(b), moved(a)}))
-        continue;
-      for (const Index i : {a, b}) cut(i);
+      if (!moves(e)) continue;
+      ask(e);
+      if (!crosses_[e]) continue;
+      for (const Index i : edges_[e]) cut(i);
       changed = true;
     }
     return changed;
@@ -158,16 +182,19 @@ class InsideMove {
   const BoundingVolumeHierarchy& solid_;
   const std::vector<Vector3>& goal_;
   const CrossingLabels& crossings_;
+  const Execution& execution_;
   std::vector<double> share_;
-  std::vector<int> cuts_;   // how often a point's share was cut
-  std::vector<int> asked_;  // per edge, the cuts of its ends when it was last asked
+  std::vector<int> cuts_;              // how often a point's share was cut
+  std::vector<int> asked_;             // per edge, the cuts of its ends when it was last asked
+  std::vector<std::uint8_t> crosses_;  // per edge, what it answered in this pass
   std::vector<std::array<Index, 2>> edges_;
   int attempt_ = 0;
 };
 
 inline void move_inside(ArcPoints& points, const BoundingVolumeHierarchy& solid,
-                        const std::vector<Vector3>& goal, const CrossingLabels& crossings) {
-  InsideMove(points, solid, goal, crossings).run();
+                        const std::vector<Vector3>& goal, const CrossingLabels& crossings,
+                        const Execution& execution) {
+  InsideMove(points, solid, goal, crossings, execution).run();
 }
 
 }  // namespace detail

@@ -214,9 +214,13 @@ MSPSKEL_INLINE void center_arcs(ArcGraph& graph, const BoundingVolumeHierarchy& 
   for (std::size_t a = 0; a < step.size(); ++a)
     if (graph.arcs[a].alive) step[a] = detail::own_step(graph.arcs[a], solid, options.step);
   const auto resample = [&] {
-    for (std::size_t a = 0; a < step.size(); ++a)
-      if (Arc& arc = graph.arcs[a]; arc.alive)
-        arc.points = detail::resampled_inside(arc, step[a], solid, crossings);
+    parallel_for(
+        graph.arc_count(), "arcs", execution, [] { return 0; },
+        [&](Index a, int) {
+          if (Arc& arc = graph.arcs[a]; arc.alive)
+            arc.points = detail::resampled_inside(arc, step[a], solid, crossings);
+        },
+        1);
   };
   resample();
   for (int round = 0; round < options.rounds; ++round) {
@@ -248,7 +252,7 @@ MSPSKEL_INLINE void center_arcs(ArcGraph& graph, const BoundingVolumeHierarchy& 
     std::vector<Vector3> goal(points.x);
     for (Index i = 0; i < points.count(); ++i)
       if (solution[i].allFinite()) goal[i] += options.damping * (solution[i] - points.x[i]);
-    detail::move_inside(points, solid, goal, crossings);
+    detail::move_inside(points, solid, goal, crossings, execution);
     points.write_back(graph);
   }
 }

@@ -11,8 +11,8 @@
 namespace mspskel {
 namespace detail {
 
-// The component of the surface that each hub stands for; kNone where no vertex maps to it or its arcs. Throws
-// UsageError if the graph's map is not of the vertices of the surface.
+// The component of the surface that each hub stands for; kNone in pieces of the graph that no vertex maps to.
+// Throws UsageError if the graph's map is not of the vertices of the surface. Cost: linear.
 inline std::vector<Index> hub_components(const ArcGraph& graph, const SurfaceSnapshot& surface) {
   if (graph.arc_of_vertex.size() != surface.position.size())
     throw UsageError("the graph's map is of " + std::to_string(graph.arc_of_vertex.size()) +
@@ -23,6 +23,17 @@ inline std::vector<Index> hub_components(const ArcGraph& graph, const SurfaceSna
     if (graph.arc_of_vertex[v] == kNone) continue;
     for (const Index h : graph.arcs[graph.arc_of_vertex[v]].hub) component[h] = surface.component[v];
   }
+  const auto at = graph.incidence();
+  std::vector<Index> known;
+  for (Index h = 0; h < graph.hub_count(); ++h)
+    if (component[h] != kNone) known.push_back(h);
+  for (std::size_t k = 0; k < known.size(); ++k)
+    for (const Index a : at[known[k]])
+      for (const Index h : graph.arcs[a].hub)
+        if (component[h] == kNone) {
+          component[h] = component[known[k]];
+          known.push_back(h);
+        }
   return component;
 }
 

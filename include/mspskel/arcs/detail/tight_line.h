@@ -76,7 +76,7 @@ class TightLine {
       const double reach = kReach * 2 * solid_.distance(before[i]), length = way.norm();
       if (length > reach) goal[i] = before[i] + reach / length * way;
     }
-    move_inside(points, solid_, goal, crossings_);
+    move_inside(points, solid_, goal, crossings_, alone_);
     std::vector<Vector3> offset(points.x.size(), Vector3::Zero());
     for (std::size_t i = 2; i < offset.size(); ++i) {  // the two hubs come first
       const Vector3& x = points.x[i];
@@ -88,7 +88,7 @@ class TightLine {
     }
     offset = diffused(points, offset, kOffsetTime);
     for (std::size_t i = 0; i < goal.size(); ++i) goal[i] = points.x[i] + offset[i];
-    move_inside(points, solid_, goal, crossings_);
+    move_inside(points, solid_, goal, crossings_, alone_);
     double longest = 0;
     for (std::size_t i = 0; i < goal.size(); ++i)
       longest = std::max(longest, (points.x[i] - before[i]).norm());
@@ -120,6 +120,7 @@ class TightLine {
     return x;
   }
 
+  const Execution alone_{1, {}};  // a line is too short for more threads
   const BoundingVolumeHierarchy& solid_;
   const double step_;
   const CrossingLabels& crossings_;

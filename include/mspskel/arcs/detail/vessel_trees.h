@@ -35,8 +35,8 @@ class VesselTrees {
   // The graph with such trees in the components marked in `shells`, as far as they make the loops of two
   // handles or more shorter; takes the marks from those components. Nothing where they do not.
   std::optional<ArcGraph> run(std::vector<bool>& shells) {
-    const std::vector<Index> component = hub_components(graph_, surface_);
-    if (!cut_out_tubes(several_loops(shells, component), component)) return std::nullopt;
+    if (!cut_out_tubes(shells)) return std::nullopt;
+    const std::vector<Index> component = hub_components(graph_, surface_);  // with the hubs of the cuts
     const std::vector<SolidMoments> moments = solid_moments(surface_);
     bool laid = false;
     for (const Tree& tree : trees()) {
@@ -71,8 +71,10 @@ class VesselTrees {
     return several;
   }
 
-  // Puts hubs where tubes begin and end. Whether there are two tubes or more.
-  bool cut_out_tubes(const std::vector<bool>& marked, const std::vector<Index>& component) {
+  // Puts hubs where tubes begin and end, in shells with several loops. Whether there are two tubes or more.
+  bool cut_out_tubes(const std::vector<bool>& shells) {
+    const std::vector<Index> component = hub_components(graph_, surface_);
+    const std::vector<bool> marked = several_loops(shells, component);
     const auto at = graph_.incidence();
     const Index count = graph_.arc_count();
     in_tube_.assign(count, 0);

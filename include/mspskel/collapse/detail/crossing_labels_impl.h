@@ -47,6 +47,7 @@ MSPSKEL_INLINE void CrossingLabels::index_loops() {
     for (std::size_t k = 0; k < loop.size(); ++k) {
       Eigen::AlignedBox3d box(loop[k]);
       box.extend(loop[k + 1 == loop.size() ? 0 : k + 1]);
+      loop_boxes_.add(static_cast<Index>(loop_edges_.size()), box.min(), box.max());
       box.min().z() = -kEndless;
       box.max().z() = kEndless;
       loops_.add(static_cast<Index>(loop_edges_.size()), box.min(), box.max());
@@ -54,6 +55,7 @@ MSPSKEL_INLINE void CrossingLabels::index_loops() {
     }
   }
   loops_.build();
+  loop_boxes_.build();
 }
 
 // +1 from the plane's negative to its positive side.
@@ -98,12 +100,12 @@ MSPSKEL_INLINE Vector3 CrossingLabels::in_view(const Vector3& p) const {
   return {u_.dot(p), v_.dot(p), d_.dot(p)};
 }
 
-MSPSKEL_INLINE bool CrossingLabels::meets_loops(const std::vector<Vector3>& points) const {
+MSPSKEL_INLINE bool CrossingLabels::may_link(const std::vector<Vector3>& points) const {
   if (loop_edges_.empty()) return false;
   Eigen::AlignedBox3d box;
   for (const Vector3& p : points) box.extend(in_view(p));
   bool any = false;
-  loops_.in_box(box.min(), box.max(), [&](Index) { any = true; });
+  loop_boxes_.in_box(box.min(), box.max(), [&](Index) { any = true; });
   return any;
 }
 
@@ -121,7 +123,7 @@ MSPSKEL_INLINE bool CrossingLabels::goes_round(const std::vector<Vector3>& ring)
     for (std::size_t i = 0; i < ring.size(); ++i) sum += region_crossing(rows_[row], ring[i], next(i));
     if (sum != 0) label += rows_[row].image * sum;
   });
-  if (!label.is_zero() || !meets_loops(ring)) return !label.is_zero();
+  if (!label.is_zero() || !may_link(ring)) return !label.is_zero();
   bool clear = true;
   for (std::size_t i = 0; i < ring.size(); ++i) label += (*this)(ring[i], next(i), clear);
   return !clear || !label.is_zero();
