@@ -81,7 +81,6 @@ class ChordPoints {
       });
     if (!(depth > 0)) return;
     const Vector3 x = chord->start - depth * surface_.normal[v];
-    if (!solid_.inside(x)) return;
     point.x = x;
     point.clearance = std::min(depth, solid_.closest(point.x, depth).distance);
     if (layer == kMiddle || !crossings_.has_loops())

@@ -54,10 +54,11 @@ inline ExtractResult extract_component(SurfaceSnapshot surface, const SurfaceSna
   // How wide the limbs are only the solid shows. Few shapes ask for another surface.
   const ExtractOptions options = coarsens ? following_width(shells, *hierarchy, given) : given;
   if (options.coarsening.vertices > given.coarsening.vertices) {
-    limbs = {};
     result.coarse.reset();
     if (shells.vertex_count() > options.coarsening.vertices)
       result.coarse = coarsen_in_steps(shells, options, limbs);
+    else
+      limbs = {};
     clock.lap("coarsening");
   }
   if (bounds == nullptr) result.solid = hierarchy;

@@ -14,15 +14,21 @@ namespace detail {
 // ones, and finding their tips costs little.
 struct LimbSurface {
   std::optional<CoarseSurface> between;  // none: the input itself
+  Index vertices = 0;                    // that `between` was to have
   std::vector<Index> coarse_vertex;      // per vertex of it; empty if nothing is coarsened
 };
 
-// From the input to the surface that the stages walk on, by way of the limb surface where that is coarser.
+// From the input to the surface that the stages walk on, by way of the limb surface where that is coarser. A
+// limb surface of an earlier call for the same input is taken up if it has as many vertices as the options
+// ask for.
 inline CoarseSurface coarsen_in_steps(const SurfaceSnapshot& input, const ExtractOptions& options,
                                       LimbSurface& limbs) {
-  if (input.vertex_count() > options.limb_vertices && options.limb_vertices > options.coarsening.vertices) {
+  const bool steps =
+      input.vertex_count() > options.limb_vertices && options.limb_vertices > options.coarsening.vertices;
+  if (!steps || limbs.vertices != options.limb_vertices) limbs = {};
+  if (steps && !limbs.between) {
     CoarseningOptions first = options.coarsening;
-    first.vertices = options.limb_vertices;
+    first.vertices = limbs.vertices = options.limb_vertices;
     limbs.between = coarsen_surface(input, first, options.execution);
   }
   CoarseSurface coarse =
