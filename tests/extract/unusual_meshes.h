@@ -87,6 +87,32 @@ inline DefaultMesh tetrahedron_with_flat_faces() {
                         {{4, 0, 2}, {2, 1, 4}, {0, 4, 3}, {4, 1, 3}, {1, 2, 3}, {2, 0, 3}});
 }
 
+// Császár's torus, turned and pressed to a billionth of its width: sections within it are wide, and the walls
+// have hardly any distance. Fewer digits are another shape.
+inline DefaultMesh flat_csaszar_torus() {
+  return from_triangles({{1.4483167676333373e-09, 3.1376524992025203, 2.461202010165013},
+                         {-3.942923895302917e-09, 0.39578650630563916, 1.8156828460046783},
+                         {-2.1102234204183504e-09, -1.8958685170626475, 2.439803205573874},
+                         {2.356522592831144e-09, -1.8740987317734654, 2.221385876663815},
+                         {4.025023619440514e-09, -1.6524422559176768, -0.26195315192544855},
+                         {-1.4483167676333373e-09, -3.1376524992025203, -2.461202010165013},
+                         {6.157479310319845e-10, -9.424918122090283, 11.652972705594223}},
+                        {{0, 1, 3},
+                         {0, 3, 2},
+                         {1, 2, 4},
+                         {1, 4, 3},
+                         {2, 3, 5},
+                         {2, 5, 4},
+                         {3, 4, 6},
+                         {3, 6, 5},
+                         {4, 5, 0},
+                         {4, 0, 6},
+                         {5, 6, 1},
+                         {5, 1, 0},
+                         {6, 0, 2},
+                         {6, 2, 1}});
+}
+
 // Every vertex of the upper half of a sphere at the pole.
 inline DefaultMesh sphere_with_collapsed_cap() {
   return moved(sphere(60), [](const Vector3& p) { return p.z() > 0.3 ? Vector3(0, 0, 1) : p; });
@@ -114,6 +140,7 @@ inline std::vector<std::pair<std::string, DefaultMesh>> unusual_meshes() {
          return to_mesh(soup);
        }()},
       {"torus of 7 vertices", to_mesh(make_csaszar_torus())},
+      {"torus of 7 vertices pressed flat", flat_csaszar_torus()},
       {"torus of 3 by 3", torus(1, 0.4, 3, 3)},
       {"coarse double torus", coarse_double_torus()},
       {"needle", tube(1e-3, 1, 6, 12)},

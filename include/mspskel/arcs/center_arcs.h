@@ -62,7 +62,9 @@ VisibleSection visible_section(const BoundingVolumeHierarchy& solid, const Vecto
 // they are if `held` names their hubs; joints are nearly free. Steps that would cut a corner through the
 // surface keep the corner between them. A point moves only as far as its edges stay off the surface, so what
 // is inside stays inside, and as far as no edge sweeps over a handle, so cycles keep their classes.
-// Cost: O(points · rays · log faces) a round. Throws UsageError, Cancelled.
+// A round that would make the arcs half as long again as they began, and ten steps, is the end: where there
+// is hardly any thickness, neighbouring points do not hold each other, and arcs grow with every round. Cost:
+// O(points · rays · log faces) a round. Throws UsageError, Cancelled.
 void center_arcs(ArcGraph& graph, const BoundingVolumeHierarchy& solid, const CenteringOptions& options,
                  const Execution& execution = {}, const CrossingLabels& crossings = {},
                  const std::vector<Index>& held = {});

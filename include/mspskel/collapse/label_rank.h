@@ -1,8 +1,9 @@
 // Rank of a growing set of cocycle labels, exact modulo a large prime.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
-#include <map>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -29,7 +30,7 @@ class LabelRank {
     return true;
   }
   // Whether insert() would return false. Cost: the same.
-  bool depends(const CocycleLabel& label) const { return reduced(label).empty(); }
+  bool depends(const CocycleLabel& label) { return reduced(label).empty(); }
   Index rank() const { return static_cast<Index>(rows_.size()); }
 
  private:
@@ -42,25 +43,52 @@ class LabelRank {
     return static_cast<std::uint64_t>(r < 0 ? r + static_cast<std::int64_t>(kPrime) : r);
   }
 
+  void open(Index index) {
+    const auto column = static_cast<std::size_t>(index);
+    if (value_.size() <= column) {
+      value_.resize(column + 1, 0);
+      is_open_.resize(column + 1, 0);
+    }
+    if (is_open_[column]) return;
+    is_open_[column] = 1;
+    open_.push_back(index);
+    std::push_heap(open_.begin(), open_.end(), std::greater<>());
+  }
+  // The least open index, which is no longer.
+  Index close() {
+    std::pop_heap(open_.begin(), open_.end(), std::greater<>());
+    const Index index = open_.back();
+    open_.pop_back();
+    is_open_[static_cast<std::size_t>(index)] = 0;
+    return index;
+  }
+
   // What is left of the label when the rows with its leading entries are taken off, one after the other. A
   // row begins with a 1 at its pivot and has nothing before it.
-  Row reduced(const CocycleLabel& label) const {
-    std::map<Index, std::uint64_t> open;
-    for (const auto& [index, value] : label.entries())
-      if (const std::uint64_t r = residue(value); r != 0) open.emplace(index, r);
-    for (auto at = open.begin(); at != open.end();) {
-      const auto column = static_cast<std::size_t>(at->first);
-      const Index r = column < row_of_.size() ? row_of_[column] : kNone;
-      if (r == kNone) break;
-      const std::uint64_t factor = kPrime - at->second;
-      for (const auto& [index, value] : rows_[static_cast<std::size_t>(r)]) {
-        std::uint64_t& x = open[index];
-        x = (x + factor * value) % kPrime;
-        if (x == 0 && index != at->first) open.erase(index);
-      }
-      at = open.erase(at);
+  Row reduced(const CocycleLabel& label) {
+    for (const auto& [index, value] : label.entries()) {
+      open(index);
+      value_[static_cast<std::size_t>(index)] = residue(value);
     }
-    return {open.begin(), open.end()};
+    Row left;
+    while (!open_.empty()) {
+      const Index index = close();
+      const auto column = static_cast<std::size_t>(index);
+      const std::uint64_t x = std::exchange(value_[column], 0);
+      if (x == 0) continue;
+      const Index r = left.empty() && column < row_of_.size() ? row_of_[column] : kNone;
+      if (r == kNone) {
+        left.push_back({index, x});
+        continue;
+      }
+      const Row& row = rows_[static_cast<std::size_t>(r)];
+      for (std::size_t i = 1; i < row.size(); ++i) {
+        open(row[i].first);
+        std::uint64_t& y = value_[static_cast<std::size_t>(row[i].first)];
+        y = (y + (kPrime - x) * row[i].second) % kPrime;
+      }
+    }
+    return left;
   }
   // x^(p − 2), by Fermat.
   static std::uint64_t inverse(std::uint64_t x) {
@@ -72,6 +100,10 @@ class LabelRank {
 
   std::vector<Row> rows_;
   std::vector<Index> row_of_;  // per index the row whose pivot it is, or kNone
+  // Of the label that is being reduced; all zero and empty between calls.
+  std::vector<std::uint64_t> value_;   // per index
+  std::vector<std::uint8_t> is_open_;  // per index whether it is in the heap
+  std::vector<Index> open_;            // heap, the least first
 };
 
 }  // namespace mspskel

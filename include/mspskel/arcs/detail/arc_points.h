@@ -55,6 +55,14 @@ struct ArcPoints {
   }
 
   Index count() const { return static_cast<Index>(x.size()); }
+
+  // Of all arcs.
+  double length() const {
+    double sum = 0;
+    for (const auto& chain : chains)
+      for (std::size_t i = 1; i < chain.size(); ++i) sum += (x[chain[i]] - x[chain[i - 1]]).norm();
+    return sum;
+  }
 };
 
 // The arc at even steps; where a step would cut a corner through the surface or round a handle, the corner

@@ -10,6 +10,7 @@
 #include "mspskel/arcs/detail/own_step.h"
 #include "mspskel/base/even_directions.h"
 #include "mspskel/base/linkage.h"
+#include "mspskel/base/solve_by_steps.h"
 
 namespace mspskel {
 namespace detail {
@@ -157,9 +158,15 @@ inline std::vector<Vector3> solve_positions(const ArcPoints& points, const std::
   matrix.setFromTriplets(entries.begin(), entries.end());
   constexpr Index kFewJoints = 128;  // among more than that, elimination fills in
   const auto joints = std::count(points.kind.begin(), points.kind.end(), ArcPoints::Kind::kJoint);
-  const std::optional<Eigen::MatrixX3d> solved = joints <= kFewJoints
-                                                     ? solved_by<Eigen::NaturalOrdering<int>>(matrix, right)
-                                                     : solved_by<Eigen::AMDOrdering<int>>(matrix, right);
+  std::optional<Eigen::MatrixX3d> solved;
+  if (joints <= kFewJoints) {
+    solved = solved_by<Eigen::NaturalOrdering<int>>(matrix, right);
+  } else {
+    Eigen::MatrixX3d guess(n, 3);
+    for (Index i = 0; i < n; ++i) guess.row(row[i]) = points.x[i].transpose();
+    solved = solve_by_steps(matrix, right, guess);
+    if (!solved) solved = solved_by<Eigen::AMDOrdering<int>>(matrix, right);
+  }
   if (!solved) return points.x;
   const Eigen::MatrixX3d& solution = *solved;
   std::vector<Vector3> x(points.x.size());
@@ -223,6 +230,8 @@ MSPSKEL_INLINE void center_arcs(ArcGraph& graph, const BoundingVolumeHierarchy& 
         1);
   };
   resample();
+  constexpr double kMostGrowth = 1.5, kSlack = 10;  // steps
+  const double longest = kMostGrowth * detail::ArcPoints(graph).length() + kSlack * options.step;
   for (int round = 0; round < options.rounds; ++round) {
     if (round > 0) resample();
     detail::ArcPoints points(graph);
@@ -253,6 +262,7 @@ MSPSKEL_INLINE void center_arcs(ArcGraph& graph, const BoundingVolumeHierarchy& 
     for (Index i = 0; i < points.count(); ++i)
       if (solution[i].allFinite()) goal[i] += options.damping * (solution[i] - points.x[i]);
     detail::move_inside(points, solid, goal, crossings, execution);
+    if (points.length() > longest) return;
     points.write_back(graph);
   }
 }

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <Eigen/SparseCholesky>
+#include <optional>
 
 #include "mspskel/base/linkage.h"
+#include "mspskel/base/solve_by_steps.h"
 
 namespace mspskel {
 namespace detail {
@@ -41,7 +43,7 @@ MSPSKEL_INLINE void apply_spatial_coherence(const SurfaceSnapshot& surface, cons
     const Index a = surface.origin[h], b = surface.target(h);
     const double w = options.strength * 0.5 * (1 / valence[a] + 1 / valence[b]);
     diagonal[a] += w;
-    if (a > b) entries.emplace_back(a, b, -w);  // the factorisation reads the lower triangle only
+    entries.emplace_back(a, b, -w);
   }
   Eigen::MatrixX3d right(n, 3);
   for (Index v = 0; v < n; ++v) {
@@ -52,11 +54,20 @@ MSPSKEL_INLINE void apply_spatial_coherence(const SurfaceSnapshot& surface, cons
   }
   Eigen::SparseMatrix<double> matrix(n, n);
   matrix.setFromTriplets(entries.begin(), entries.end());
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(matrix);
-  if (solver.info() != Eigen::Success)
-    return;  // the matrix is positive definite, so only rounding could do this
-  const Eigen::MatrixX3d solution = solver.solve(right);
-  for (Index v = 0; v < n; ++v) mesh.position[v] = solution.row(v).transpose();
+  constexpr Index kFew = 20000;  // more rows than that take longer to eliminate than to approach
+  std::optional<Eigen::MatrixX3d> solution;
+  if (n > kFew) {
+    Eigen::MatrixX3d guess(n, 3);
+    for (Index v = 0; v < n; ++v) guess.row(v) = mesh.position[v].transpose();
+    solution = solve_by_steps(matrix, right, guess);
+  }
+  if (!solution) {
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(matrix);
+    if (solver.info() != Eigen::Success)
+      return;  // the matrix is positive definite, so only rounding could do this
+    solution = solver.solve(right);
+  }
+  for (Index v = 0; v < n; ++v) mesh.position[v] = solution->row(v).transpose();
 }
 
 }  // namespace mspskel

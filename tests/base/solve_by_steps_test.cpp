@@ -1,0 +1,50 @@
+// Systems solved in steps have the solution that elimination gives.
+#include "mspskel/base/solve_by_steps.h"
+
+#include <Eigen/SparseCholesky>
+#include <catch2/catch.hpp>
+
+#include "support/meshes.h"
+
+using namespace mspskel;
+using namespace mspskel::test;
+
+TEST_CASE("Steps end where elimination does, on grids with springs of any stiffness") {
+  constexpr int kSide = 9;
+  const auto number = [](int x, int y, int z) { return (x * kSide + y) * kSide + z; };
+  const int n = kSide * kSide * kSide;
+  for (const double stiffest : {1.0, 1e3, 1e5}) {
+    Random random(3);
+    std::vector<Eigen::Triplet<double>> entries;
+    const auto join = [&](int a, int b) {
+      const double w = random.uniform(0.01, stiffest);
+      for (const int i : {a, b}) entries.emplace_back(i, i, w);
+      entries.emplace_back(a, b, -w);
+      entries.emplace_back(b, a, -w);
+    };
+    for (int x = 0; x < kSide; ++x)
+      for (int y = 0; y < kSide; ++y)
+        for (int z = 0; z < kSide; ++z) {
+          entries.emplace_back(number(x, y, z), number(x, y, z), random.uniform(0.01, 1.0));
+          if (x + 1 < kSide) join(number(x, y, z), number(x + 1, y, z));
+          if (y + 1 < kSide) join(number(x, y, z), number(x, y + 1, z));
+          if (z + 1 < kSide) join(number(x, y, z), number(x, y, z + 1));
+        }
+    Eigen::SparseMatrix<double> matrix(n, n);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    Eigen::MatrixX3d goal(n, 3), guess(n, 3);
+    for (int i = 0; i < n; ++i) {
+      goal.row(i) = random.in_ball().transpose();
+      guess.row(i) = random.in_ball().transpose();
+    }
+    const auto stepped = solve_by_steps(matrix, goal, guess);
+    REQUIRE(stepped);
+    for (int k = 0; k < 3; ++k)
+      CHECK((matrix * *stepped - goal).col(k).norm() <= 1.1e-8 * (matrix * guess - goal).col(k).norm());
+    const Eigen::MatrixX3d exact = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(matrix).solve(goal);
+    const auto from_nothing = solve_by_steps(matrix, goal, Eigen::MatrixX3d::Zero(n, 3));
+    REQUIRE(from_nothing);
+    CHECK((*from_nothing - exact).norm() < 1e-5 * exact.norm());
+    CHECK(*solve_by_steps(matrix, goal, guess) == *stepped);
+  }
+}
