@@ -14,8 +14,6 @@ struct RigOptions {
   // How far a vertex on either side of a joint follows both bones, in half widths of the cross-section
   // there; [0, 10].
   double blend = 1.0;
-  // Rounds in which weights are averaged with those of the neighbours on the surface; [0, 1000].
-  Index smoothing = 3;
 };
 
 // Throws UsageError naming the option.
@@ -23,11 +21,13 @@ void validate(const RigOptions& options);
 
 // Joints where arcs meet, where they leave the ball of such a place, where they bend and where they end; the
 // root is the one nearest the middle of the surface along the skeleton. Cycles are cut farthest from the
-// root; pieces of the skeleton hang on the root of the largest. A vertex follows the bone that its node is on
-// and, near a joint, the next one. Names: "root"; "body3_1" is the first joint of the third stretch between
-// junctions, "limb2_1" that of the second limb; where limbs mirror each other they end in _L and _R.
-// docs/rigging.md has pictures. Throws UsageError for options out of range, a skeleton without nodes or one
-// whose map does not fit the surface. O(nodes log nodes + joints * nodes + vertices * smoothing).
+// root; pieces of the skeleton hang on the root of the largest. A vertex follows the bone beside it and, near
+// a joint, the next one; what follows a joint changes along an edge of the surface by at most 0.9 of the
+// edge's length over its distance from the joint, so that no face turns over when the joint turns by 45
+// degrees. Names: "root"; "body3_1" is the first joint of the third stretch between junctions, "limb2_1" that
+// of the second limb; where limbs mirror each other they end in _L and _R. docs/rigging.md has pictures.
+// Throws UsageError for options out of range, a skeleton without nodes or one whose map does not fit the
+// surface. O(nodes log nodes + joints * nodes + vertices log vertices).
 Rig make_rig(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton, const RigOptions& options = {});
 
 }  // namespace mspskel
