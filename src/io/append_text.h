@@ -13,6 +13,11 @@ inline void append(std::string& out, double value) {
   char digits[32];
   out.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
 }
+// The same of a float: at most nine digits.
+inline void append(std::string& out, float value) {
+  char digits[24];
+  out.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
+}
 inline void append(std::string& out, Index value) {
   char digits[16];
   out.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);

@@ -288,7 +288,7 @@ std::string format_rig_text(const Rig& rig) {
   for (std::size_t v = 0; v < rig.influences.size(); ++v) {
     detail::append_all(out, "skin ", v);
     for (const auto& [joint, weight] : rig.influences[v])
-      if (weight > 0) detail::append_all(out, ' ', rig.joints[joint].name, ' ', weight);
+      if (weight > 0) detail::append_all(out, ' ', rig.joints[joint].name, ' ', static_cast<float>(weight));
     out += '\n';
   }
   for (std::size_t j = 1; j < rig.joints.size(); ++j)

@@ -25,7 +25,8 @@ class Slopes {
   }
 
   std::vector<LowerShare> run() {
-    for (Index h = 0; h < surface_.halfedge_count(); ++h) note(h);
+    for (Index h = 0; h < surface_.halfedge_count(); ++h)
+      if (!(shares_[surface_.origin[h]] == shares_[surface_.target(h)])) note(h);
     for (Index j = 1; j < static_cast<Index>(steep_.size()); ++j)
       if (!steep_[j].empty()) lower(j);
     std::sort(found_.begin(), found_.end(), [](const LowerShare& a, const LowerShare& b) {
@@ -52,7 +53,6 @@ class Slopes {
   // Keeps the half-edge with each joint whose share rises along it by too much.
   void note(Index h) {
     const BoneShare &low = shares_[surface_.origin[h]], &high = shares_[surface_.target(h)];
-    if (low == high) return;
     for (Index j = high.joint; j > 0; j = rig_.joints[j].parent) {
       const double rise = (j == high.joint ? high.share : 1.0) - share(surface_.origin[h], j);
       if (rise > 0 && rise > most_change(h, j)) steep_[j].push_back(h);

@@ -161,17 +161,37 @@ class PartFinder {
     if (score < best.score) best = {score, std::move(edges)};
   }
 
+  // The edge above a node, where it could be cut by its size.
+  struct Bridge {
+    Index node;
+    double radius, least_score;  // no taper is wider than what it is between
+  };
+  // Those that could be cleanest first: the search for tapers ends where no other can be cleaner.
+  std::vector<Bridge> bridges_of(const detail::PartTree& tree, double widest) const {
+    std::vector<Bridge> bridges;
+    const double whole = tree.area[tree.order[0]];
+    for (const Index n : tree.order) {
+      if (!tree.is_bridge(n)) continue;
+      const double radius =
+          std::max(0.5 * (size_[tree.parent[n]] + size_[n]), kStraightened * tree.border[n] / (2 * kPi));
+      if (radius > options_.contrast * widest || !is_part(radius, tree.area[n], whole)) continue;
+      const double smaller = std::min(tree.area[n], whole - tree.area[n]);
+      bridges.push_back({n, radius, radius / widest * 2 * kPi * radius / std::sqrt(smaller)});
+    }
+    std::stable_sort(bridges.begin(), bridges.end(),
+                     [](const Bridge& a, const Bridge& b) { return a.least_score < b.least_score; });
+    return bridges;
+  }
   Cut cleanest_cut(Index root) {
     const detail::PartTree tree = detail::make_part_tree(skeleton_, next_, contacts_, part_, root);
     double widest = 0;
     for (const Index n : tree.order) widest = std::max(widest, size_[n]);
     Cut best;
-    for (const Index n : tree.order) {
-      if (!tree.is_bridge(n)) continue;
-      const Index m = tree.parent[n];
-      const double radius = std::max(0.5 * (size_[m] + size_[n]), kStraightened * tree.border[n] / (2 * kPi));
-      if (is_part(radius, tree.area[n], tree.area[root]))
-        consider(best, radius, radius / tapered(m, n, widest), tree.area[n], tree.area[root], {{m, n}});
+    for (const Bridge& bridge : bridges_of(tree, widest)) {
+      if (bridge.least_score >= best.score) break;
+      const Index n = bridge.node, m = tree.parent[n];
+      consider(best, bridge.radius, bridge.radius / tapered(m, n, widest), tree.area[n], tree.area[root],
+               {{m, n}});
     }
     for (const std::vector<Index>& chain : chains_on_cycles(tree))
       cut_stretch(best, chain, widest, tree.area[root]);

@@ -139,6 +139,10 @@ class Segmenter {
   bool lost_ = false;
 };
 
+// Of the coarse surface's mean edge: a border that runs along its edges is about half of one beside the
+// smooth one.
+constexpr double kSettling = 0.6;
+
 double mean_edge_length(const SurfaceSnapshot& surface) {
   double sum = 0;
   for (Index h = 0; h < surface.halfedge_count(); ++h) sum += surface.edge_length(h);
@@ -157,9 +161,8 @@ std::vector<Index> parts_by_coarse_surface(const SurfaceSnapshot& surface, const
   if (segmenter.lost_part() || count < options.parts.count) return {};
   auto [part, near_border] = detail::carried_to_input(surface, coarse, found);
   if (!has_all(part, count)) return {};
-  connect_parts(surface, part);
   smooth_borders(surface, border_costs(surface, options.creases, near_border), part, options.border_width,
-                 mean_edge_length(coarse.surface));
+                 kSettling * mean_edge_length(coarse.surface));
   connect_parts(surface, part);
   return part;
 }
@@ -181,9 +184,17 @@ std::vector<Index> find_parts_of_faces(const SurfaceSnapshot& surface, const Coa
 
 std::vector<NodeContact> node_contacts(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton) {
   check_surface_map(surface, skeleton);
-  std::vector<NodeContact> pieces;
+  // Per node those with larger numbers that it touches; a node touches few.
+  std::vector<std::vector<std::pair<Index, double>>> touched(skeleton.nodes.size());
   const auto add = [&](Index a, Index b, double length) {
-    pieces.push_back({{std::min(a, b), std::max(a, b)}, surface.frame.scale * length});
+    auto& those = touched[std::min(a, b)];
+    const Index other = std::max(a, b);
+    const auto at =
+        std::find_if(those.begin(), those.end(), [&](const auto& entry) { return entry.first == other; });
+    if (at == those.end())
+      those.push_back({other, length});
+    else
+      at->second += length;
   };
   for (Index f = 0; f < surface.face_count(); ++f) {
     std::array<Index, 3> node{};
@@ -201,14 +212,12 @@ std::vector<NodeContact> node_contacts(const SurfaceSnapshot& surface, const Cur
         add(node[i], node[k], 0.5 * (x[i] - x[j]).norm());
     }
   }
-  std::stable_sort(pieces.begin(), pieces.end(),
-                   [](const NodeContact& a, const NodeContact& b) { return a.nodes < b.nodes; });
   std::vector<NodeContact> contacts;
-  for (const NodeContact& piece : pieces)
-    if (!contacts.empty() && contacts.back().nodes == piece.nodes)
-      contacts.back().length += piece.length;
-    else
-      contacts.push_back(piece);
+  for (Index n = 0; n < static_cast<Index>(touched.size()); ++n) {
+    std::sort(touched[n].begin(), touched[n].end());
+    for (const auto& [other, length] : touched[n])
+      contacts.push_back({{n, other}, surface.frame.scale * length});
+  }
   return contacts;
 }
 

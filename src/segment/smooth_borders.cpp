@@ -129,8 +129,9 @@ class BorderSmoother {
 // Maximal sets of faces of one part that hang together across edges.
 struct Pieces {
   std::vector<Index> of_face;
-  std::vector<double> area;  // per piece
-  std::vector<Index> part;   // per piece
+  std::vector<Index> part;  // per piece
+
+  Index count() const { return static_cast<Index>(part.size()); }
 };
 
 Pieces find_pieces(const SurfaceSnapshot& surface, const std::vector<Index>& part_of_face) {
@@ -139,15 +140,13 @@ Pieces find_pieces(const SurfaceSnapshot& surface, const std::vector<Index>& par
   std::vector<Index> stack;
   for (Index start = 0; start < surface.face_count(); ++start) {
     if (pieces.of_face[start] != kNone) continue;
-    const Index piece = static_cast<Index>(pieces.area.size());
-    pieces.area.push_back(0.0);
+    const Index piece = pieces.count();
     pieces.part.push_back(part_of_face[start]);
     pieces.of_face[start] = piece;
     stack.assign(1, start);
     while (!stack.empty()) {
       const Index f = stack.back();
       stack.pop_back();
-      pieces.area.back() += surface.face_normal_times_twice_area(f).norm();
       for (Index h = 3 * f; h < 3 * f + 3; ++h) {
         const Index g = surface.twin[h] / 3;
         if (pieces.of_face[g] != kNone || part_of_face[g] != part_of_face[f]) continue;
@@ -159,14 +158,19 @@ Pieces find_pieces(const SurfaceSnapshot& surface, const std::vector<Index>& par
   return pieces;
 }
 
-// Per piece: whether it is the largest of its part.
-std::vector<char> largest_pieces(const Pieces& pieces) {
+// Per piece: whether it is the largest of its part. Areas tell where a part has several.
+std::vector<char> largest_pieces(const SurfaceSnapshot& surface, const Pieces& pieces) {
   std::map<Index, Index> largest;
-  for (Index i = 0; i < static_cast<Index>(pieces.area.size()); ++i) {
-    const auto found = largest.emplace(pieces.part[i], i).first;
-    if (pieces.area[i] > pieces.area[found->second]) found->second = i;
+  for (Index i = 0; i < pieces.count(); ++i) largest.emplace(pieces.part[i], i);
+  if (static_cast<Index>(largest.size()) == pieces.count()) return std::vector<char>(pieces.part.size(), 1);
+  std::vector<double> area(pieces.part.size(), 0.0);
+  for (Index f = 0; f < surface.face_count(); ++f)
+    area[pieces.of_face[f]] += surface.face_normal_times_twice_area(f).norm();
+  for (Index i = 0; i < pieces.count(); ++i) {
+    Index& most = largest[pieces.part[i]];
+    if (area[i] > area[most]) most = i;
   }
-  std::vector<char> is_largest(pieces.area.size(), 0);
+  std::vector<char> is_largest(pieces.part.size(), 0);
   for (const auto& entry : largest) is_largest[entry.second] = 1;
   return is_largest;
 }
@@ -184,10 +188,10 @@ void connect_parts(const SurfaceSnapshot& surface, std::vector<Index>& part_of_f
   for (bool moved = true; moved;) {
     moved = false;
     const Pieces pieces = find_pieces(surface, part_of_face);
-    const std::vector<char> stays = largest_pieces(pieces);
+    const std::vector<char> stays = largest_pieces(surface, pieces);
     if (std::all_of(stays.begin(), stays.end(), [](char s) { return s != 0; })) return;
     // Only pieces that stay take others in, so that each round settles all that touch one.
-    std::vector<std::map<Index, double>> shared(pieces.area.size());
+    std::vector<std::map<Index, double>> shared(pieces.part.size());
     for (Index h = 0; h < surface.halfedge_count(); ++h) {
       const Index i = pieces.of_face[h / 3], j = pieces.of_face[surface.twin[h] / 3];
       if (i != j && !stays[i] && stays[j]) shared[i][pieces.part[j]] += surface.edge_length(h);
