@@ -65,8 +65,10 @@ class Slopes {
     std::priority_queue<Item, std::vector<Item>, std::greater<Item>> queue;
     const auto from = [&](Index h, double here) {
       const Index w = surface_.target(h);
+      const double present = std::min(lowered_[w], share(w, joint));
+      if (present <= here) return;
       const double most = here + most_change(h, joint);
-      if (most >= std::min(lowered_[w], share(w, joint))) return;
+      if (most >= present) return;
       if (lowered_[w] == kUnchanged) touched_.push_back(w);
       lowered_[w] = most;
       queue.push({most, w});

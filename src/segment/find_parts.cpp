@@ -21,6 +21,7 @@ using Edge = std::array<Index, 2>;
 // One edge, or two that cut a stretch out of a cycle. `edges[0][1]` is in what is cut off.
 struct Cut {
   double score = kInfinite;  // less is cleaner
+  double widest = 0;         // radius of a cross-section of the part that is cut
   std::vector<Edge> edges;
 
   bool has(Index a, Index b) const {
@@ -47,6 +48,7 @@ class PartFinder {
         distance_(skeleton.nodes.size(), kInfinite),
         side_(skeleton.nodes.size(), 0) {
     for (const SkeletonNode& node : skeleton.nodes) total_ += node.area;
+    for (const auto& neighbours : next_) taper_.emplace_back(neighbours.size(), -1.0);
   }
 
   SkeletonParts run() {
@@ -98,6 +100,7 @@ class PartFinder {
       const Cut cut = *best;
       root_[p] = cut.edges[0][0];
       add_part(cut.edges[0][1], p, cut);
+      forget_tapers(cut);
       cut_[p] = cleanest_cut(root_[p]);
       cut_.push_back(cleanest_cut(root_.back()));
     }
@@ -130,8 +133,14 @@ class PartFinder {
     return sides;
   }
   // The widest straight taper over the edge a-b, from the largest cross-section near it on one side to any on
-  // the other side: its radius at the edge.
+  // the other side: its radius at the edge. Kept until a cut comes near.
   double tapered(Index a, Index b, double widest) {
+    const auto at = std::find(next_[a].begin(), next_[a].end(), b) - next_[a].begin();
+    double& known = taper_of(a, static_cast<std::size_t>(at));
+    if (known < 0) known = search_taper(std::min(a, b), std::max(a, b), widest);
+    return known;
+  }
+  double search_taper(Index a, Index b, double widest) {
     const auto sides = sides_of(a, b, options_.reach * widest);
     double best = 0;
     for (int side = 0; side < 2; ++side) {
@@ -146,6 +155,34 @@ class PartFinder {
     return best;
   }
 
+  // Of edges that the cut, which is made, may have parted from what their tapers come from.
+  void forget_tapers(const Cut& cut) {
+    for (const Edge& edge : cut.edges)
+      for (const Index end : edge) {
+        reached_.assign(1, end);
+        distance_[end] = 0;
+        for (std::size_t i = 0; i < reached_.size(); ++i) {
+          const Index n = reached_[i];
+          for (std::size_t k = 0; k < next_[n].size(); ++k) {
+            const Index other = next_[n][k];
+            taper_of(n, k) = -1;
+            const double there = distance_[n] + length(n, other);
+            if (part_[other] != part_[n] || there > options_.reach * cut.widest || there >= distance_[other])
+              continue;
+            distance_[other] = there;
+            reached_.push_back(other);
+          }
+        }
+        for (const Index n : reached_) distance_[n] = kInfinite;
+      }
+  }
+  double& taper_of(Index n, std::size_t k) {
+    const Index other = next_[n][k];
+    if (n < other) return taper_[n][k];
+    return taper_[other][static_cast<std::size_t>(std::find(next_[other].begin(), next_[other].end(), n) -
+                                                  next_[other].begin())];
+  }
+
   // Whether what a cross-section cuts off is a part by its size. `area` is what is cut off from `whole`.
   bool is_part(double radius, double area, double whole) const {
     const double smaller = std::min(area, whole - area), perimeter = 2 * kPi * radius;
@@ -158,7 +195,7 @@ class PartFinder {
                 std::vector<Edge> edges) const {
     if (contrast > options_.contrast || !is_part(radius, area, whole)) return;
     const double score = contrast * 2 * kPi * radius / std::sqrt(std::min(area, whole - area));
-    if (score < best.score) best = {score, std::move(edges)};
+    if (score < best.score) best = {score, best.widest, std::move(edges)};
   }
 
   // The edge above a node, where it could be cut by its size.
@@ -187,6 +224,7 @@ class PartFinder {
     double widest = 0;
     for (const Index n : tree.order) widest = std::max(widest, size_[n]);
     Cut best;
+    best.widest = widest;
     for (const Bridge& bridge : bridges_of(tree, widest)) {
       if (bridge.least_score >= best.score) break;
       const Index n = bridge.node, m = tree.parent[n];
@@ -252,6 +290,8 @@ class PartFinder {
   std::vector<std::vector<Index>> next_;
   std::vector<double> size_;  // per node: radius of a circle with the cross-section's perimeter
   std::vector<Index> part_;
+  std::vector<std::vector<double>>
+      taper_;                     // per node and neighbour with a larger number; negative: not known
   std::vector<double> distance_;  // of sides_of, and infinite between its calls
   std::vector<char> side_;
   std::vector<Index> reached_;
