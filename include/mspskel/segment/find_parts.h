@@ -16,7 +16,7 @@ struct PartOptions {
   double reach = 2.0;
   // A part's surface is at least so many times the square of the perimeter that cuts it off; [0, 100]. A tube
   // as long as it is wide has 1 / pi = 0.32, a hemisphere 1 / (2 pi) = 0.16.
-  double slenderness = 0.15;
+  double slenderness = 0.2;
   // Parts below this share of the surface are not cut off; [0, 1].
   double smallest = 0.003;
   // At most so many parts, the clearest first, [0, 2^31), though never fewer than the skeleton has pieces; 0:
