@@ -28,9 +28,9 @@ std::string length_text(double length) {
   return text;
 }
 
-MeshInput wrap(const PolygonSoup& soup, const RepairSettings& settings, const Execution& execution) {
+MeshInput of_wrap(WrappedSoup&& wrapped) {
   MeshInput input;
-  input.wrapped = wrap_soup(soup, settings.wrapping, execution);
+  input.wrapped = std::move(wrapped);
   input.built = build_mesh_with_report(input.wrapped->soup);
   input.wrapped->soup = {};
   input.vertex_of_point = input.wrapped->vertex_of_point;
@@ -149,7 +149,7 @@ MeshInput prepare_mesh(const PolygonSoup& soup, const RepairSettings& settings, 
       settings.options.weld > 0 || settings.options.smallest_component != defaults.smallest_component;
   MeshInput input;
   if (settings.wrap_mode == WrapMode::kAlways) {
-    input = wrap(soup, settings, execution);
+    input = of_wrap(wrap_soup(soup, settings.wrapping, execution));
   } else if (!settings.repair) {
     input.built = build_mesh_with_report(soup);
   } else if (wants_more) {
@@ -163,8 +163,10 @@ MeshInput prepare_mesh(const PolygonSoup& soup, const RepairSettings& settings, 
   }
   if (settings.wrap_mode == WrapMode::kAuto && is_guesswork(input.repair.counts)) {
     // A bowl is open on purpose: nothing but its wall would be enclosed.
-    MeshInput wrapped = wrap(soup, settings, execution);
-    if (wrapped.wrapped->encloses) input = std::move(wrapped);
+    WrapOptions options = settings.wrapping;
+    options.thicken_walls = false;
+    WrappedSoup wrapped = wrap_soup(soup, options, execution);
+    if (wrapped.encloses) input = of_wrap(std::move(wrapped));
   }
   if (settings.unite && !input.wrapped) unite(input, execution);
   input.built.warnings.insert(input.built.warnings.begin(), soup.warnings.begin(), soup.warnings.end());
@@ -177,7 +179,7 @@ void write_surface(const MeshInput& input, const RepairSettings& settings) {
 }
 
 MeshInput wrap_mesh(const PolygonSoup& soup, const RepairSettings& settings, const Execution& execution) {
-  MeshInput input = wrap(soup, settings, execution);
+  MeshInput input = of_wrap(wrap_soup(soup, settings.wrapping, execution));
   input.built.warnings.insert(input.built.warnings.begin(), soup.warnings.begin(), soup.warnings.end());
   return input;
 }

@@ -96,6 +96,40 @@ TEST_CASE("Solids with a limb between them that is pressed to a line are one") {
   CHECK(wrap_soup(both).solids == 1);
 }
 
+TEST_CASE("Where nothing is enclosed there is a thickened wall, or nothing if that is asked for") {
+  PolygonSoup half = loose_faces("sphere", 600, 0.0);
+  std::vector<Index> corners;
+  for (std::size_t i = 0; i < half.corners.size(); i += 3)
+    if (half.points[half.corners[i]].z() < 0)
+      corners.insert(corners.end(), {half.corners[i], half.corners[i + 1], half.corners[i + 2]});
+  half.corners.clear();
+  half.begin = {0};
+  for (std::size_t i = 0; i < corners.size(); i += 3)
+    half.add_triangle(corners[i], corners[i + 1], corners[i + 2]);
+  const WrappedSoup wall = wrap_soup(half);
+  CHECK_FALSE(wall.encloses);
+  CHECK(wall.solids == 1);
+  WrapOptions options;
+  options.thicken_walls = false;
+  const WrappedSoup nothing = wrap_soup(half, options);
+  CHECK_FALSE(nothing.encloses);
+  CHECK(nothing.solids == 0);
+  CHECK(nothing.soup.points.empty());
+  const PolygonSoup whole = loose_faces("sphere", 600, 0.2);
+  const WrappedSoup solid = wrap_soup(whole, options);
+  CHECK(solid.encloses);
+  CHECK(solid.soup.corners == wrap_soup(whole).soup.corners);
+}
+
+TEST_CASE("A soup tells the scale of its gaps, whatever the grid that is asked") {
+  const PolygonSoup fine = loose_faces("sphere", 600, 0.1), coarse = loose_faces("sphere", 60, 0.4);
+  const WrappedSoup narrow = wrap_soup(fine), wide = wrap_soup(coarse);
+  CHECK(narrow.encloses);
+  CHECK(wide.encloses);
+  CHECK(narrow.gap < wide.gap);
+  CHECK(shape_of(wide.soup).genus == 0);
+}
+
 TEST_CASE("What wraps a mesh is moved and scaled along with it") {
   const PolygonSoup loose = loose_faces("capsule", 300, 0.1);
   const WrappedSoup one = wrap_soup(loose), other = wrap_soup(moved(loose, 1024, {0, 0, 0}));

@@ -12,6 +12,9 @@ struct WrapOptions {
   // Gaps narrower than this share of the extent are closed; [0.004, 0.2]. 0: the least of 0.0125, 0.025, 0.05
   // and 0.1 at which at least half of what the last one encloses is enclosed.
   double gap = 0.0;
+  // Whether faces that enclose nothing get a thickness where the soup is to tell the scale; else nothing is
+  // made.
+  bool thicken_walls = true;
 };
 
 // Throws UsageError naming the option that is out of range.
@@ -22,7 +25,7 @@ struct WrappedSoup {
   std::vector<Index> vertex_of_point;  // the vertex nearest to each point; kNone for points of no face
   double gap = 0.0, cell = 0.0;        // model units
   // Whether more is enclosed than the walls take at the largest scale that the soup was asked for; where it
-  // is not, the soup has told no scale, and its faces were given a thickness.
+  // is not, the soup has told no scale: its faces were given a thickness, or all else here is empty.
   bool encloses = true;
   Index solids = 0, small_components = 0;
 };
@@ -31,10 +34,13 @@ struct WrappedSoup {
 // that it does not pass are closed, hollows that it does not find are filled, double walls and crossing faces
 // are inside. Faces that enclose nothing get a thickness of less than two cells of the grid; all else grows
 // outward by less than one. Crumbs below 0.025 of the largest piece's extent are left out.
-//   On a grid of at most 16 million nodes: distances from the faces, a flood from outside where the ball
-// fits, distances from what it reached, and the surface where they equal its radius, cut in tetrahedra.
-// Faces with corners that are not finite, or not there, are left out. Throws MeshError if no face has an
-// extent, Cancelled. Cost: O(nodes + faces + surface / cell²); 40 bytes a node.
+//   On a grid whose cells are a quarter of the gap, but from 0.004 to 0.01 of the extent, or from 0.00625
+//   where
+// the soup tells the scale: distances from the faces, a flood from outside where the ball fits, distances
+// from what it reached, and the surface where they equal its radius, cut in tetrahedra. The scale is told by
+// volumes on a grid of cells of 0.0125. Faces with corners that are not finite, or not there, are left out.
+// Throws MeshError if no face has an extent, Cancelled. Cost: O(nodes + faces + surface / cell²); 40 bytes a
+// node.
 WrappedSoup wrap_soup(const PolygonSoup& soup, const WrapOptions& options = {},
                       const Execution& execution = {});
 
