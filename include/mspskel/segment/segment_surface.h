@@ -35,10 +35,10 @@ std::vector<NodeContact> node_contacts(const SurfaceSnapshot& surface, const Cur
 // find_parts on the skeleton, its parts carried to the faces by the surface map, then smooth_borders,
 // connect_parts and split_at_creases. All that runs on a coarser surface, where the input is finer than parts
 // need: `coarse`, which extract_skeleton leaves in its result, or one that is made here. Its parts go to the
-// nearest faces of the input, where borders settle within 0.6 of a coarse edge. Every part is connected across
-// edges, and parts are numbered from the largest area to the smallest. Throws UsageError for options out of
-// range or a skeleton whose map does not fit the surface. Cost: O(faces + parts * nodes^2) and a maximum flow
-// about each border.
+// nearest faces of the input, where borders settle within 0.6 of a coarse edge. Every part is connected
+// across edges, and parts are numbered from the largest area to the smallest. Throws UsageError for options
+// out of range or a skeleton whose map does not fit the surface. Cost: O(faces + parts * nodes^2) and a
+// maximum flow about each border.
 Segmentation segment_surface(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton,
                              const SegmentOptions& options = {}, const CoarseSurface* coarse = nullptr);
 
