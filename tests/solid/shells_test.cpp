@@ -1,5 +1,4 @@
 // Vessels: the law that their arcs follow from the shape and not from where the collapse put them.
-#include "mspskel/io/write_mesh.h"
 #include "mspskel/solid/shells.h"
 
 #include <algorithm>
@@ -200,7 +199,6 @@ TEST_CASE("Loops of mugs, vases and teapots are at most 1.3 times as long as the
   amphora.handles.push_back({kPi, 3, 5, 0.5, 0.1});
   pair.handles.push_back({2.0, 2, 3, 0.6, 0.13});
   for (const Vessel& vessel : {mug, vase, teapot, amphora, pair}) {
-    static int nn=0; {DefaultMesh m_=vessel.mesh(7000); write_mesh("/tmp/vessel"+std::to_string(nn++)+".off",m_);}
     const ExtractResult result = extract_skeleton(vessel.mesh(7000));
     CHECK(count_graph(result.skeleton).cycles == static_cast<Index>(vessel.handles.size()));
     for (const Vessel::Handle& handle : vessel.handles) {
