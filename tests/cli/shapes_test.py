@@ -36,7 +36,7 @@ class Shapes(ProgramTest):
         self.assertEqual(sorted(words[2] for words in lines if words[0] == "hier"), sorted(set(joints) - {"root"}))
         for words in lines:
             if words[0] == "skin":
-                self.assertAlmostEqual(sum(map(float, words[3::2])), 1)
+                self.assertAlmostEqual(sum(map(float, words[3::2])), 1, places=6)  # weights have a 32-bit float's digits
                 self.assertLessEqual(set(words[2::2]), set(joints))
 
     def test_pose_bends_the_surface(self):

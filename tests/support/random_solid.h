@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
+#include "mspskel/mesh/build_mesh.h"
 #include "mspskel/mesh/self_intersection.h"
 #include "mspskel/samples/skin_graph.h"
 #include "support/meshes.h"
@@ -139,7 +140,12 @@ inline DefaultMesh random_solid(std::uint64_t seed, const RandomSolidOptions& op
     const double cell = std::min(0.29, std::sqrt(2.6 * area / (raw ? vertices : 2 * vertices)));
     PolygonSoup soup = march_tetrahedra(solid, cell);
     if (!raw) soup = remesh(soup, solid, {edge_for_vertices(area, vertices), 3});
-    DefaultMesh mesh = to_mesh(soup);
+    DefaultMesh mesh;
+    try {
+      mesh = build_mesh(soup);
+    } catch (const MeshError&) {  // pinched, where two limbs just touch
+      continue;
+    }
     if (make_snapshot(mesh).component_count != 1) continue;  // a cavity, or a limb too thin for the cell
     if (raw && static_cast<Index>(mesh.n_vertices()) > options.most_vertices) continue;
     if (raw) return mesh;
