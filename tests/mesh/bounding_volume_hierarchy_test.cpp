@@ -69,6 +69,25 @@ TEST_CASE("the closest point is the brute-force one, at any distance and with an
   }
 }
 
+TEST_CASE("the closest point of a triangle without area lies on it") {
+  Points random;
+  for (int i = 0; i < 3000; ++i) {
+    // All corners on a line, moved off it by no more than rounding, or all at one point.
+    const Vector3 a = random(), along = i % 10 == 0 ? Vector3::Zero() : random();
+    const double off = i % 3 == 0 ? 0 : std::pow(10.0, -15 - i % 150);
+    const detail::Triangle t{a, a + random()[0] * along + off * random(), a + random()[0] * along + off * random()};
+    const Vector3 p = a + random()[0] * along + std::pow(10.0, i % 5 - 4.0) * random();
+    const Vector3 q = detail::closest_on_triangle(p, t);
+    REQUIRE(q.allFinite());
+    double best = std::numeric_limits<double>::infinity();
+    for (int k = 0; k <= 200; ++k)
+      for (const auto& [from, to] : {std::pair(t.a, t.b), std::pair(t.b, t.c), std::pair(t.c, t.a)})
+        best = std::min(best, (from + k / 200.0 * (to - from) - p).norm());
+    CHECK((q - p).norm() <= best * (1 + 1e-9) + 1e-14);
+    CHECK(detail::closest_on_sides(q, t).isApprox(q, 1e-9));
+  }
+}
+
 TEST_CASE("rays find the brute-force hits, from near and from far") {
   const SurfaceSnapshot s = snapshot({test::torus(2, 0.7, 24, 12), sphere(0.8)});
   const BoundingVolumeHierarchy tree(s);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "mspskel/base/types.h"
@@ -13,8 +14,25 @@ struct Triangle {
   Vector3 a, b, c;
 };
 
+// The point of the segment from a to b nearest to p; a where both are one point.
+inline Vector3 closest_on_segment(const Vector3& p, const Vector3& a, const Vector3& b) {
+  const Vector3 ab = b - a;
+  const double square = ab.squaredNorm();
+  return square > 0 ? Vector3(a + std::clamp((p - a).dot(ab) / square, 0.0, 1.0) * ab) : a;
+}
+
+// The nearest point of the three sides, which is that of the whole triangle where it has no area.
+inline Vector3 closest_on_sides(const Vector3& p, const Triangle& t) {
+  const std::array<Vector3, 3> feet = {closest_on_segment(p, t.a, t.b), closest_on_segment(p, t.b, t.c),
+                                       closest_on_segment(p, t.c, t.a)};
+  return *std::min_element(feet.begin(), feet.end(), [&](const Vector3& x, const Vector3& y) {
+    return (x - p).squaredNorm() < (y - p).squaredNorm();
+  });
+}
+
 // The point of the triangle nearest to p, by the region of the plane that p projects to: three corners, three
-// edges, the inside (Ericson, "Real-Time Collision Detection", 2005, 5.1.5). Zero-area triangles are fine.
+// edges, the inside (Ericson, "Real-Time Collision Detection", 2005, 5.1.5). Where a triangle has hardly an area,
+// its barycentric weights are rounding's, and a point of its sides may be nearer.
 inline Vector3 closest_on_triangle(const Vector3& p, const Triangle& t) {
   const Vector3 ab = t.b - t.a, ac = t.c - t.a, ap = p - t.a;
   const double d1 = ab.dot(ap), d2 = ac.dot(ap);
@@ -32,8 +50,12 @@ inline Vector3 closest_on_triangle(const Vector3& p, const Triangle& t) {
   const double va = d3 * d6 - d5 * d4, along = d4 - d3, rest = d5 - d6;
   if (va <= 0 && along >= 0 && rest >= 0)
     return along + rest > 0 ? Vector3(t.b + along / (along + rest) * (t.c - t.b)) : t.b;
-  const double sum = va + vb + vc;
-  return t.a + vb / sum * ab + vc / sum * ac;
+  if (!(std::min({va, vb, vc}) > 0)) return closest_on_sides(p, t);
+  const double sum = va + vb + vc;  // the square of twice the area
+  const Vector3 inner = t.a + vb / sum * ab + vc / sum * ac;
+  if (sum > 1e-10 * ab.squaredNorm() * ac.squaredNorm()) return inner;
+  const Vector3 side = closest_on_sides(p, t);
+  return (side - p).squaredNorm() < (inner - p).squaredNorm() ? side : inner;
 }
 
 enum class Crossing { kNone, kClear, kDoubtful, kOnSurface };
