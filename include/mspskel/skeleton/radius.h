@@ -27,9 +27,12 @@ inline void set_radii(const SurfaceSnapshot& snapshot, const BoundingVolumeHiera
       static_cast<Index>(skeleton.nodes.size()), "radius", execution, [] { return Before(); },
       [&](Index i, Before& before) {
         const Vector3 p = snapshot.frame.to_normalised(skeleton.nodes[i].position);
-        // No farther than the way by the node before. The margin is for rounding.
+        // No farther than the way by the node before, but for rounding, which in triangles without area is
+        // large beside distances near 0.
         const double bound = (before.distance + (p - before.position).norm()) * (1 + 1e-9) + 1e-12;
-        before = {p, hierarchy.closest(p, bound).distance};
+        ClosestPoint nearest = hierarchy.closest(p, bound);
+        if (nearest.face == kNone) nearest = hierarchy.closest(p);
+        before = {p, nearest.distance};
         skeleton.nodes[i].radius = snapshot.frame.scale * before.distance;
       });
 }
