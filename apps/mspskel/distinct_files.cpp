@@ -57,7 +57,10 @@ void refuse_shared_files(const std::vector<FileRole>& inputs, const std::vector<
       throw UsageError(name + " is " + taken.at(id).what + ", which would be lost: " + output.what +
                        " needs another place");
     const auto [there, first] = written.emplace(id, output);
-    if (!first) throw UsageError(name + " cannot be both " + there->second.what + " and " + output.what);
+    if (first) continue;
+    const bool alike = there->second.what == output.what;
+    throw UsageError(name + (alike ? " is given twice as " + output.what
+                                   : " cannot be both " + there->second.what + " and " + output.what));
   }
 }
 

@@ -51,7 +51,7 @@ class Refused(ProgramTest):
     def test_two_outputs_at_one_place(self):
         for one, other in [("a.skel", "./a.skel"), ("a.skel", "sub/../a.skel"), ("made.skel", "dangling.skel"),
                            ("-", "-")]:
-            self.assertIn("cannot be both", self.refused("s.obj", one, other))
+            self.assertIn("is given twice as an output", self.refused("s.obj", one, other))
             self.assertIn("the report", self.refused("s.obj", one, "--report", other))
         self.refused("s.obj", "p/msp.csv.json", "--report", "p/../p/msp.csv.json")
         self.refused("s.obj", "a.ply", "s/msp.ply", "--stages", "s")

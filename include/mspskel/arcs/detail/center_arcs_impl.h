@@ -1,16 +1,15 @@
 #pragma once
 
-#include <Eigen/SparseCholesky>
+#include <Eigen/Sparse>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 
 #include "mspskel/arcs/detail/arc_points.h"
 #include "mspskel/arcs/detail/own_step.h"
 #include "mspskel/base/even_directions.h"
 #include "mspskel/base/linkage.h"
-#include "mspskel/base/solve_by_steps.h"
+#include "mspskel/base/sparse_solvers.h"
 
 namespace mspskel {
 namespace detail {
@@ -103,14 +102,6 @@ inline Pull section_pull(const BoundingVolumeHierarchy& solid, const Vector3& x,
           thickness * thickness};
 }
 
-template <class Ordering>
-std::optional<Eigen::MatrixX3d> solved_by(const Eigen::SparseMatrix<double>& matrix,
-                                          const Eigen::MatrixX3d& right) {
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Ordering> solver(matrix);
-  if (solver.info() != Eigen::Success) return std::nullopt;
-  return Eigen::MatrixX3d(solver.solve(right));
-}
-
 // The place of each point in the elimination: inner points of the chains, then those beside a hub, then hubs.
 // Along a chain nothing fills in but its two ends; a joint's neighbours, which are all coupled with each
 // other, come when only they are left.
@@ -158,15 +149,11 @@ inline std::vector<Vector3> solve_positions(const ArcPoints& points, const std::
   matrix.setFromTriplets(entries.begin(), entries.end());
   constexpr Index kFewJoints = 128;  // among more than that, elimination fills in
   const auto joints = std::count(points.kind.begin(), points.kind.end(), ArcPoints::Kind::kJoint);
-  std::optional<Eigen::MatrixX3d> solved;
-  if (joints <= kFewJoints) {
-    solved = solved_by<Eigen::NaturalOrdering<int>>(matrix, right);
-  } else {
-    Eigen::MatrixX3d guess(n, 3);
-    for (Index i = 0; i < n; ++i) guess.row(row[i]) = points.x[i].transpose();
-    solved = solve_by_steps(matrix, right, guess);
-    if (!solved) solved = solved_by<Eigen::AMDOrdering<int>>(matrix, right);
-  }
+  Eigen::MatrixX3d guess(n, 3);
+  for (Index i = 0; i < n; ++i) guess.row(row[i]) = points.x[i].transpose();
+  const auto solved = joints > kFewJoints
+                          ? solve_large(matrix, right, guess)
+                          : solve_by_elimination<Eigen::NaturalOrdering<int>>(matrix, right);
   if (!solved) return points.x;
   const Eigen::MatrixX3d& solution = *solved;
   std::vector<Vector3> x(points.x.size());

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <Eigen/SparseCholesky>
-#include <optional>
+#include <Eigen/Sparse>
 
 #include "mspskel/base/linkage.h"
-#include "mspskel/base/solve_by_steps.h"
+#include "mspskel/base/sparse_solvers.h"
 
 namespace mspskel {
 namespace detail {
@@ -55,18 +54,11 @@ MSPSKEL_INLINE void apply_spatial_coherence(const SurfaceSnapshot& surface, cons
   Eigen::SparseMatrix<double> matrix(n, n);
   matrix.setFromTriplets(entries.begin(), entries.end());
   constexpr Index kFew = 20000;  // more rows than that take longer to eliminate than to approach
-  std::optional<Eigen::MatrixX3d> solution;
-  if (n > kFew) {
-    Eigen::MatrixX3d guess(n, 3);
-    for (Index v = 0; v < n; ++v) guess.row(v) = mesh.position[v].transpose();
-    solution = solve_by_steps(matrix, right, guess);
-  }
-  if (!solution) {
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(matrix);
-    if (solver.info() != Eigen::Success)
-      return;  // the matrix is positive definite, so only rounding could do this
-    solution = solver.solve(right);
-  }
+  Eigen::MatrixX3d guess(n, 3);
+  for (Index v = 0; v < n; ++v) guess.row(v) = mesh.position[v].transpose();
+  const auto solution =
+      n > kFew ? solve_large(matrix, right, guess) : solve_by_elimination(matrix, right);
+  if (!solution) return;  // the matrix is positive definite, so only rounding could do this
   for (Index v = 0; v < n; ++v) mesh.position[v] = solution->row(v).transpose();
 }
 

@@ -1,11 +1,24 @@
-// Sparse linear systems that a factorisation would fill in.
+// Symmetric positive definite sparse systems with three right sides: by elimination, or in steps where the
+// factors would fill in.
 #pragma once
 
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/Sparse>
+#include <Eigen/SparseCholesky>
 #include <optional>
 
 namespace mspskel {
+
+// The solution of matrix · x = right by its LDLᵀ factors in this ordering; nothing if rounding leaves no factors.
+// Only the lower triangle is read. Costs what the factors hold, which for a graph of many cycles grows with
+// the square of its size.
+template <class Ordering = Eigen::AMDOrdering<int>>
+std::optional<Eigen::MatrixX3d> solve_by_elimination(const Eigen::SparseMatrix<double>& matrix,
+                                                     const Eigen::MatrixX3d& right) {
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Ordering> solver(matrix);
+  if (solver.info() != Eigen::Success) return std::nullopt;
+  return Eigen::MatrixX3d(solver.solve(right));
+}
 
 // Solves matrix · x = right for three right sides in steps from a guess, until what is left of the right
 // sides is 1e-8 of what the guess leaves. Nothing if that takes more than 200 steps. For graphs with many
@@ -27,6 +40,14 @@ inline std::optional<Eigen::MatrixX3d> solve_by_steps(const Eigen::SparseMatrix<
   const Eigen::MatrixX3d way = solver.solve(left);
   if (solver.info() != Eigen::Success || !way.allFinite()) return std::nullopt;
   return guess + way;
+}
+
+// In steps, and by elimination where too many were needed.
+inline std::optional<Eigen::MatrixX3d> solve_large(const Eigen::SparseMatrix<double>& matrix,
+                                                   const Eigen::MatrixX3d& right,
+                                                   const Eigen::MatrixX3d& guess) {
+  if (auto solution = solve_by_steps(matrix, right, guess)) return solution;
+  return solve_by_elimination(matrix, right);
 }
 
 }  // namespace mspskel
