@@ -124,10 +124,13 @@ class Crushed(ProgramTest):
     """Coordinates rounded to a twentieth of the extent press thin arms flat: there is no solid in them."""
 
     def crushed(self):
-        lines = (self.folder / self.sample("octoped", 3000)).read_text().split("\n")
+        return self.rounded(self.sample("octoped", 3000), 20)
+
+    def rounded(self, mesh, steps):
+        lines = (self.folder / mesh).read_text().split("\n")
         count = int(lines[1].split()[0])
         points = [[float(x) for x in line.split()] for line in lines[2:2 + count]]
-        step = max(max(axis) - min(axis) for axis in zip(*points)) / 20
+        step = max(max(axis) - min(axis) for axis in zip(*points)) / steps
         rounded = [" ".join(repr(round(x / step) * step) for x in point) for point in points]
         return self.write("crushed.off", "\n".join([*lines[:2], *rounded, *lines[2 + count:]]))
 
@@ -141,6 +144,15 @@ class Crushed(ProgramTest):
         result = self.run_program("check", "crushed.off", "a.skel", "--json", "-")
         self.assertEqual((result.returncode, json.loads(result.stdout)["wrapped"]), (DONE, True), result.stderr)
         self.assertEqual(self.run_program("check", "crushed.off", "a.skel", "-q", "--wrap", "never").returncode, NO_SKELETON)
+
+    def test_is_wrapped_where_no_loop_fits_a_surface_that_crosses_itself(self):
+        self.assertEqual(self.run_program("sample", "vase", "vase.off", "--count", 3).returncode, DONE)
+        mesh = self.rounded("vase.off", 10)
+        self.assertIn("topology", self.fail_with(NO_SKELETON, mesh, "a.skel", "-q", "--wrap", "never"))
+        result = self.run_program(mesh, "a.skel", "--report", "r.json")
+        self.assertEqual(result.returncode, DONE, result.stderr)
+        self.assertRegex(result.stderr.decode(), "of the mesh's own surface, .* topology is not the solid's")
+        self.assertEqual(json.loads((self.folder / "r.json").read_text())["checks"]["topology"], "proved")
 
     def test_is_refused_where_it_may_not_be_wrapped(self):
         mesh = self.crushed()
