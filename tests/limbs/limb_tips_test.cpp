@@ -7,7 +7,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <set>
+#include <string>
 
+#include "mspskel/limbs/detail/part_shape.h"
 #include "mspskel/mesh/coarsen_surface.h"
 #include "support/solids.h"
 
@@ -100,6 +102,63 @@ TEST_CASE("Pieces have tips of their own, and nothing to measure gives none") {
 
 TEST_CASE("The corners of a block are no limbs") {
   for (const LimbTip& tip : tips_of(Solid(prism(4, 1.5, 13)))) CHECK(tip.kind == TipKind::kWayEnd);
+}
+
+TEST_CASE("The corners of bodies that carry limbs are no limbs") {
+  struct Body {
+    std::string name;
+    Index count;
+    double ratio;
+    Section section;
+    std::size_t limbs;
+  };
+  // A cube with rods, the top of a table beyond the legs, the corners of a frame of bars.
+  const std::vector<Body> bodies{{"cube-rods", 1, 0, Section::kSquare, 1}, {"cube-rods", 3, 0, Section::kRound, 3},
+                                 {"table", 4, 0.7, Section::kSquare, 4},   {"lattice", 3, 0, Section::kSquare, 0}};
+  for (const Body& body : bodies) {
+    SampleOptions options;
+    options.count = body.count;
+    options.ratio = body.ratio;
+    options.section = body.section;
+    INFO(body.name << " " << body.count);
+    const std::vector<LimbTip> tips = tips_of(Solid(to_mesh(make_sample(body.name, options))));
+    const auto limbs = std::count_if(tips.begin(), tips.end(), [](const LimbTip& tip) {
+      return tip.kind == TipKind::kLimb || tip.kind == TipKind::kEar;
+    });
+    CHECK(static_cast<std::size_t>(limbs) == body.limbs);
+  }
+}
+
+TEST_CASE("A tube's surface lies at half of its depth, and its mouth is its girth; a corner's lies deeper") {
+  SampleOptions options;
+  options.count = 1;
+  options.section = Section::kSquare;
+  const Solid solid(to_mesh(make_sample("cube-rods", options)));
+  for (const LimbTip& tip : tips_of(solid)) {
+    if (tip.kind != TipKind::kLimb) continue;
+    CHECK(std::abs(tip.measures.mean_depth - 0.5) < 0.05);
+    CHECK(std::abs(tip.measures.depth_over_mouth / tip.measures.slenderness - 1) < 0.2);
+  }
+
+  // Near a cube's corner lie three quarters of discs, whose mean radius is two thirds of theirs.
+  SampleOptions sides;
+  sides.resolution = 4000;
+  sides.sides = Vector3(2, 2, 2);
+  const Solid cube(to_mesh(make_sample("box", sides)));
+  const std::vector<Vector3>& x = cube.surface.position;
+  Index corner = 0;
+  for (Index v = 0; v < cube.surface.vertex_count(); ++v)
+    if (x[v].sum() > x[corner].sum()) corner = v;
+  constexpr double kReach = 0.2;
+  std::vector<double> distance;
+  for (const Vector3& position : x) distance.push_back(-(position - x[corner]).norm());
+  detail::PartShapeSum sum(cube.surface, distance, -kReach);
+  for (Index v = 0; v < cube.surface.vertex_count(); ++v)
+    if (distance[v] >= -kReach) sum.add_vertex(v);
+  const detail::PartShape shape = sum.shape(0);
+  CHECK(std::abs(shape.mean_depth / (2 * kReach / 3) - 1) < 0.05);
+  CHECK(std::abs(shape.area / (0.75 * kPi * kReach * kReach) - 1) < 0.15);
+  CHECK(std::abs(shape.mouth / (1.5 * kPi * kReach) - 1) < 0.15);
 }
 
 TEST_CASE("A limb's slenderness is its length over its radius, however fine the triangles are") {

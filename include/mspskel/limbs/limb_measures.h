@@ -36,11 +36,26 @@ struct LimbMeasures {
   // 2π depth² / area: length over radius of a tube, 2 / sin of the half angle of a cone. An area moves little
   // under noise and with the triangles, so this decides.
   double slenderness = 0.0;
+  double mean_depth = 0.5;  // of its surface below its tip, over depth: 1/2 of a tube, 2/3 of a cone or corner
+  // 2π depth / length of the contour where it leaves the rest: 1 / sin of the half angle of a cone.
+  double depth_over_mouth = 0.0;
 };
+
+// The corner of a body: blunter than a right-angled cone, and widening in proportion to its depth, or wider
+// than what carries it is thick, as the corners of plates and the rims of walls. A limb is about as wide at its
+// root as before it; spikes and fins are deep for their mouths. Where the whole body lies behind the surface,
+// less of a taper will do.
+inline bool is_corner(const LimbMeasures& m) {
+  constexpr double kRightAngledCone = 1.4142;  // depth over mouth
+  const bool widens = m.mean_depth > (m.half_chord > 3 * m.half_width ? 0.61 : 0.655);
+  return m.depth_over_mouth < kRightAngledCone &&
+         (widens || m.half_width > 1.25 * m.carrier_half_chord);
+}
 
 // A limb by its slenderness. Its surface faces itself: inward of the corner of a block is the whole block.
 inline bool is_limb(const LimbMeasures& m, const LimbOptions& o) {
-  return m.slenderness >= o.slenderness && m.depth >= 1.4 * m.half_width && m.half_chord <= 2 * m.half_width;
+  return m.slenderness >= o.slenderness && m.depth >= 1.4 * m.half_width &&
+         m.half_chord <= 2 * m.half_width && !is_corner(m);
 }
 
 // Slenderness of fingers, in those of limbs.
@@ -51,12 +66,11 @@ inline bool is_digit(const LimbMeasures& m, const LimbOptions& o) {
   return m.slenderness >= kFinger * o.slenderness && m.depth >= 1.6 * o.smallest;
 }
 
-// An ear or a horn: a bump rather than a limb, but much smaller than what carries it. Only in a shape that
-// has limbs: measured so, the corners of a block are ears as well. The corner of a plate is wider than the
-// plate is thick.
+// An ear or a horn: a bump rather than a limb, but much smaller than what carries it. Only in a shape that has
+// limbs or whose body ends: a ridge of a plain body may be as much.
 inline bool is_ear(const LimbMeasures& m, const LimbOptions& o) {
-  return m.half_width <= 1.25 * m.carrier_half_chord && m.slenderness >= 0.3 * o.slenderness &&
-         m.slenderness * m.msp_ratio >= 0.65 * o.slenderness && m.depth >= 0.75 * m.half_width;
+  return m.slenderness >= 0.3 * o.slenderness && m.slenderness * m.msp_ratio >= 0.65 * o.slenderness &&
+         m.depth >= 0.75 * m.half_width && !is_corner(m);
 }
 
 // How slender a part that no arc comes near has to be to get one: as a digit, since the rest of the shape,

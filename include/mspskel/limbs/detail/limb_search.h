@@ -9,6 +9,7 @@
 
 #include "mspskel/base/value_at_rank.h"
 #include "mspskel/limbs/detail/growing_parts.h"
+#include "mspskel/limbs/detail/part_shape.h"
 #include "mspskel/limbs/limb_tips.h"
 #include "mspskel/solid/detail/inward_chord.h"
 
@@ -123,8 +124,10 @@ class LimbTipSearch {
     m.depth = distance_[top] - level;
     std::vector<double> widths;
     double whole = 0, sliced = 0, perimeter = 0;
+    PartShapeSum sum(surface_, distance_, level);
     for (const Index v : part) {
       whole += surface_.vertex_area[v];
+      sum.add_vertex(v);
       if (!slices_.valid[v]) continue;
       sliced += surface_.vertex_area[v];
       perimeter += surface_.vertex_area[v] * slices_.perimeter[v];
@@ -134,6 +137,9 @@ class LimbTipSearch {
     m.half_width = value_at_rank(std::move(widths), 0.5);
     m.half_chord = median_half_chord(part);
     m.slenderness = 2 * kPi * m.depth * m.depth / whole;
+    const PartShape shape = sum.shape(distance_[top]);
+    m.mean_depth = shape.mean_depth / m.depth;
+    m.depth_over_mouth = 2 * kPi * m.depth / shape.mouth;
     const std::vector<Index> carrier = surface_beside(round, found.root, 2 * m.half_width);
     m.carrier_half_chord = median_half_chord(carrier);
     m.msp_ratio = std::max(1.0, mean_perimeter(carrier) * sliced / perimeter);
