@@ -41,15 +41,18 @@ struct LimbMeasures {
   double depth_over_mouth = 0.0;
 };
 
-// The corner of a body: blunter than a right-angled cone, and widening in proportion to its depth, or wider
-// than what carries it is thick, as the corners of plates and the rims of walls. A limb is about as wide at its
-// root as before it; spikes and fins are deep for their mouths. Where the whole body lies behind the surface,
-// less of a taper will do.
+// Whether a part is blunter than a right-angled cone. Spikes and fins are deep for their mouths.
+inline bool is_blunt(double depth_over_mouth) { return depth_over_mouth < 1.4142; }
+
+// A part that is wider than what carries it is thick, as the corners of plates and the rims of walls.
+inline bool is_wider_than_carrier(double half_width, double carrier) { return half_width > 1.25 * carrier; }
+
+// The corner of a body: blunt, and widening in proportion to its depth or wider than its carrier. A limb is
+// about as wide at its root as before it. Where the whole body lies behind the surface, less of a taper will do.
 inline bool is_corner(const LimbMeasures& m) {
-  constexpr double kRightAngledCone = 1.4142;  // depth over mouth
   const bool widens = m.mean_depth > (m.half_chord > 3 * m.half_width ? 0.61 : 0.655);
-  return m.depth_over_mouth < kRightAngledCone &&
-         (widens || m.half_width > 1.25 * m.carrier_half_chord);
+  return is_blunt(m.depth_over_mouth) &&
+         (widens || is_wider_than_carrier(m.half_width, m.carrier_half_chord));
 }
 
 // A limb by its slenderness. Its surface faces itself: inward of the corner of a block is the whole block.

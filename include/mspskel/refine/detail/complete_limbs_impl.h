@@ -106,9 +106,13 @@ class LimbCompletion {
     return false;
   }
 
-  // The level at which a part is a limb: slender by itself, or a bump that is no wider than what carries it.
+  // The level at which a part is a limb: slender by itself and no corner, or a bump that is no wider than what
+  // carries it.
   std::optional<PartLevel> limb_level(const SlenderPart& part) const {
-    if (part.slenderest.slenderness() >= uncovered_slenderness(options_)) return part.slenderest;
+    const PartLevel& own = part.slenderest;
+    const bool is_corner = is_blunt(own.depth_over_mouth()) &&
+                           is_wider_than_carrier(own.depth / own.slenderness(), carrier_[part.top]);
+    if (own.slenderness() >= uncovered_slenderness(options_) && !is_corner) return own;
     const PartLevel& level = part.narrowest;
     if (level.depth > 0 && is_bump(level, 2 * kPi * carrier_[part.top], options_)) return level;
     return std::nullopt;
