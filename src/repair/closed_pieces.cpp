@@ -219,13 +219,17 @@ std::vector<char> faces_to_keep(const std::vector<Vector3>& points, const FaceSe
       stays[i] = 1;
     }
   }
-  double wall = 0, caps = 0;
+  double wall = 0, caps = 0, flat = 0, all = 0;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
+    if (pieces[i].faces == 0) continue;
+    all += pieces[i].wall;
+    if (!has_volume(pieces[i])) flat += pieces[i].wall;
     if (!stays[i]) continue;
     wall += pieces[i].wall;
     caps += pieces[i].caps;
   }
   if (wall > 0) counts.hole_share = caps / (wall + caps);
+  if (all > 0) counts.flat_share = flat / all;
   std::vector<char> keep(faces.count());
   for (Index f = 0; f < faces.count(); ++f) keep[f] = stays[piece_of[f]];
   return keep;

@@ -16,7 +16,7 @@ struct Shell {
 
 std::vector<Shell> shells_of(const SurfaceSnapshot& surface);
 
-// Groups of at least two components that cross each other, see unite_crossing_shells; each in order.
+// See crossing_shells in unite_shells.h.
 std::vector<std::vector<Index>> crossing_groups(const SurfaceSnapshot& surface,
                                                 const std::vector<Shell>& shells,
                                                 const ProgressCallback& progress);

@@ -40,10 +40,10 @@ std::vector<Piece> measure_pieces(const std::vector<Vector3>& points, const Face
 }
 
 bool has_volume(const Piece& piece) {
-  constexpr double kFlat = 1e-8, kSheet = 0.95;
+  constexpr double kFlat = 1e-8, kSheet = 0.95, kLidded = 0.3, kWavy = 1e-3;
   if (piece.caps > kSheet * piece.wall) return false;
-  const double volume = piece.volume / 6;
-  return 36 * kPi * volume * volume > kFlat * std::pow(piece.area(), 3);
+  const double volume = piece.volume / 6, least = piece.caps > kLidded * piece.wall ? kWavy : kFlat;
+  return 36 * kPi * volume * volume > least * std::pow(piece.area(), 3);
 }
 
 }  // namespace mspskel::detail

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "crossing_shells.h"
 #include "disjoint_sets.h"
@@ -16,9 +17,10 @@ namespace {
 using detail::Shell;
 using detail::WholePieces;
 
-// The median way through the solid from some of the shell's vertices.
+// The way through the shell's solid that is longer from nine of ten of its vertices: limbs are thinner than
+// most.
 double thickness(const SurfaceSnapshot& surface, const Shell& shell) {
-  constexpr std::size_t kSamples = 200;
+  constexpr std::size_t kSamples = 200, kThin = 10;
   const BoundingVolumeHierarchy solid(surface, shell.faces);
   std::vector<double> ways;
   for (std::size_t i = 0; i < shell.vertices.size(); i += 1 + shell.vertices.size() / kSamples) {
@@ -29,8 +31,8 @@ double thickness(const SurfaceSnapshot& surface, const Shell& shell) {
       ways.push_back(hit->distance);
   }
   if (ways.empty()) return 0;
-  std::nth_element(ways.begin(), ways.begin() + ways.size() / 2, ways.end());
-  return ways[ways.size() / 2];
+  std::nth_element(ways.begin(), ways.begin() + ways.size() / kThin, ways.end());
+  return ways[ways.size() / kThin];
 }
 
 double extent_of(const std::vector<Shell>& shells, const std::vector<Index>& members) {
@@ -61,6 +63,7 @@ double cell_for(const SurfaceSnapshot& surface, const std::vector<Shell>& shells
                     std::max(kCoarsest * extent, affordable));
 }
 
+// Shells that cross hang together, and so does their union, unless parts of it are thinner than the cells.
 // Nothing if the union has more handles than its shells have and n of them can make by touching: an assembly
 // of parts in contact, or walls too thin for the cells.
 std::optional<WholePieces> unite(const SurfaceSnapshot& surface, const std::vector<Shell>& shells,
@@ -68,12 +71,15 @@ std::optional<WholePieces> unite(const SurfaceSnapshot& surface, const std::vect
   const std::vector<Index> euler = twice_euler_characteristics(surface);
   Index own = 0;
   for (const Index m : members) own += (4 - euler[m]) / 4;
+  const auto faults = [&](const WholePieces& pieces) {
+    return std::max<Index>(0, pieces.genus - own) + pieces.solids - 1;
+  };
   std::optional<WholePieces> best;
   for (const double margin : {0.0, 0.5 * std::sqrt(3.0) * cell}) {
-    if (best && best->genus <= own) break;
+    if (best && faults(*best) == 0) break;
     WholePieces pieces =
         detail::without_crumbs(detail::boundary_of_union(surface, shells, members, cell, margin, execution));
-    if (pieces.solids > 0 && (!best || pieces.genus < best->genus)) best = std::move(pieces);
+    if (pieces.solids > 0 && (!best || faults(pieces) < faults(*best))) best = std::move(pieces);
   }
   if (best && best->genus > own + static_cast<Index>(members.size())) best.reset();
   return best;
@@ -150,13 +156,15 @@ void validate(const UniteOptions& options) {
     throw UsageError("cells of united shells must be from 0.001 to 0.1 of the extent, or 0");
 }
 
-std::optional<UnitedShells> unite_crossing_shells(const SurfaceSnapshot& surface, const UniteOptions& options,
-                                                  const Execution& execution) {
+std::vector<std::vector<Index>> crossing_shells(const SurfaceSnapshot& surface, const Execution& execution) {
+  if (surface.component_count < 2) return {};
+  return detail::crossing_groups(surface, detail::shells_of(surface), execution.progress);
+}
+
+UnitedShells unite_shells(const SurfaceSnapshot& surface, const std::vector<std::vector<Index>>& groups,
+                          const UniteOptions& options, const Execution& execution) {
   validate(options);
-  if (surface.component_count < 2) return std::nullopt;
   const std::vector<Shell> shells = detail::shells_of(surface);
-  const std::vector<std::vector<Index>> groups = detail::crossing_groups(surface, shells, execution.progress);
-  if (groups.empty()) return std::nullopt;
   std::vector<bool> grouped(shells.size(), false);
   for (const std::vector<Index>& group : groups)
     for (const Index m : group) grouped[m] = true;

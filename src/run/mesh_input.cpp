@@ -1,7 +1,9 @@
 #include "mesh_input.h"
 
 #include <charconv>
+#include <cmath>
 #include <cstdio>
+#include <numeric>
 
 #include "mspskel/base/counted.h"
 #include "mspskel/base/error.h"
@@ -48,11 +50,21 @@ bool is_guesswork(const MendCounts& counts) {
   return counts.hole_share > kMostMadeUp;
 }
 
-void unite(MeshInput& input, const Execution& execution) {
-  if (input.built.component_count < 2) return;
-  const SurfaceSnapshot surface = make_snapshot(input.built.mesh);
-  input.united = unite_crossing_shells(surface, {}, execution);
-  if (!input.united) return;
+// What the components of a surface fill each on its own, cubed model units.
+double filled_by_shells(const SurfaceSnapshot& surface) {
+  std::vector<double> volume(static_cast<std::size_t>(surface.component_count), 0.0);
+  for (Index f = 0; f < surface.face_count(); ++f) {
+    const Index v = surface.origin[3 * f];
+    volume[surface.component[v]] +=
+        surface.face_normal_times_twice_area(f).dot(surface.position[v]) / 6 * std::pow(surface.frame.scale, 3);
+  }
+  return std::accumulate(volume.begin(), volume.end(), 0.0,
+                         [](double sum, double part) { return sum + std::abs(part); });
+}
+
+void unite(MeshInput& input, const SurfaceSnapshot& surface, const std::vector<std::vector<Index>>& groups,
+           const Execution& execution) {
+  input.united = unite_shells(surface, groups, {}, execution);
   UnitedShells& united = *input.united;
   if (united.left_apart > 0)
     input.built.warnings.push_back(counted(united.left_apart, "shell") +
@@ -77,6 +89,37 @@ void unite(MeshInput& input, const Execution& execution) {
                      counted(united.solids, "solid") + ", sampled at cells of " + length_text(united.cell) +
                      " (--shells each keeps them apart)");
   input.built.warnings.insert(input.built.warnings.begin(), warnings.begin(), warnings.end());
+}
+
+// Shells that cross each other: walls round a room, as a house's, are wrapped, others are united.
+void join_shells(MeshInput& input, const PolygonSoup& soup, const RepairSettings& settings,
+                 const Execution& execution) {
+  if (input.built.component_count < 2) return;
+  const SurfaceSnapshot surface = make_snapshot(input.built.mesh);
+  const std::vector<std::vector<Index>> groups = crossing_shells(surface, execution);
+  if (groups.empty()) return;
+  if (settings.wrap_mode == WrapMode::kAuto) {
+    WrapOptions options = settings.wrapping;
+    options.thicken_walls = false;
+    options.filled = filled_by_shells(surface);
+    WrappedSoup wrapped = wrap_soup(soup, options, execution);
+    if (wrapped.encloses) {
+      input = of_wrap(std::move(wrapped));
+      return;
+    }
+  }
+  unite(input, surface, groups, execution);
+}
+
+// Nothing tells what the solid is: most of the surface is open sheets, and a good part of the rest would be
+// made up.
+void refuse_sheets(const MendCounts& counts) {
+  constexpr double kMostSheets = 0.5;
+  if (counts.flat_share <= kMostSheets) return;
+  throw MendError("the mesh encloses no volume: " + std::to_string(std::lround(100 * counts.flat_share)) +
+                      " % of its area is open sheets, and what they might stand round is anybody's guess; close "
+                      "it to a solid, or wrap it with --wrap 0.02",
+                  counts);
 }
 
 double share_of(const std::string& option, const std::string& text, const std::string& words, Range range) {
@@ -166,9 +209,12 @@ MeshInput prepare_mesh(const PolygonSoup& soup, const RepairSettings& settings, 
     WrapOptions options = settings.wrapping;
     options.thicken_walls = false;
     WrappedSoup wrapped = wrap_soup(soup, options, execution);
-    if (wrapped.encloses) input = of_wrap(std::move(wrapped));
+    if (wrapped.encloses)
+      input = of_wrap(std::move(wrapped));
+    else
+      refuse_sheets(input.repair.counts);
   }
-  if (settings.unite && !input.wrapped) unite(input, execution);
+  if (settings.unite && !input.wrapped) join_shells(input, soup, settings, execution);
   input.built.warnings.insert(input.built.warnings.begin(), soup.warnings.begin(), soup.warnings.end());
   write_surface(input, settings);
   return input;
@@ -202,6 +248,7 @@ Json counts_json(const MendCounts& c) {
           {"hole_share", c.hole_share},
           {"joined_pieces", c.joined_pieces},
           {"flat_components", c.flat_components},
+          {"flat_share", c.flat_share},
           {"small_components", c.small_components},
           {"small_faces", c.small_faces}};
 }

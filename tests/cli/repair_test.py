@@ -170,6 +170,42 @@ class Repair(ProgramTest):
         self.assertEqual(len((self.folder / "a.seg").read_text().split()), len(read_off(self.folder / "two.off")[1]))
         self.assertNotIn("numbered", self.run_program(self.sample("capsule"), "--segments", "a.seg").stderr.decode())
 
+    def room(self):
+        """A room of six slabs that cross in its edges and corners."""
+        points, faces = [], []
+        corners = [(0, 2, 1), (1, 2, 3), (4, 5, 6), (5, 7, 6), (0, 1, 4), (1, 5, 4), (2, 6, 3), (3, 6, 7), (0, 4, 2), (2, 4, 6),
+                   (1, 3, 5), (3, 7, 5)]
+        half = (2.0, 1.5, 1.0)
+        for axis in range(3):
+            for side in (-1, 1):
+                box = [[-1.05 * h, 1.05 * h] for h in half]
+                box[axis] = sorted((side * half[axis], side * (half[axis] - 0.05)))
+                first = len(points)
+                points += [tuple(box[k][i >> k & 1] for k in range(3)) for i in range(8)]
+                faces += [tuple(first + v for v in f) for f in corners]
+        write_off(self.folder / "room.off", points, faces)
+
+    def test_shells_round_a_room_are_wrapped(self):
+        self.room()
+        result = self.run_program("room.off", "a.skel", "--report", "r.json")
+        self.assertEqual(result.returncode, DONE, result.stderr)
+        report = json.loads((self.folder / "r.json").read_text())
+        self.assertTrue(report["repair"]["wrapped"])
+        self.assertEqual((report["input"]["components"], report["input"]["genus"]), (1, 0))
+        self.succeed("room.off", "a.skel", "--report", "r.json", "--wrap", "never", "-q")
+        self.assertEqual(json.loads((self.folder / "r.json").read_text())["repair"]["united_shells"], 6)
+
+    def test_terrain_is_refused_though_a_lid_would_close_it(self):
+        n = 40
+        points = [(i / n, j / n, 0.1 * math.sin(20 * i / n) * math.sin(20 * j / n)) for j in range(n + 1) for i in range(n + 1)]
+        faces = []
+        for j in range(n):
+            for i in range(n):
+                a = j * (n + 1) + i
+                faces += [(a, a + 1, a + n + 2), (a, a + n + 2, a + n + 1)]
+        write_off(self.folder / "terrain.off", points, faces)
+        self.assertIn("encloses no volume", self.fail_with(MESH, "terrain.off", "a.skel"))
+
     def test_flat_sheet_is_refused_with_a_remedy(self):
         self.write("sheet.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n")
         self.assertIn("thickness", self.fail_with(MESH, "sheet.off", "a.skel"))

@@ -42,7 +42,10 @@ PolygonSoup shifted(PolygonSoup soup, const Vector3& by) {
 std::optional<UnitedShells> unite(const PolygonSoup& soup, int threads = 1) {
   Execution execution;
   execution.threads = threads;
-  return unite_crossing_shells(make_snapshot(build_mesh(soup)), {}, execution);
+  const SurfaceSnapshot surface = make_snapshot(build_mesh(soup));
+  const std::vector<std::vector<Index>> groups = crossing_shells(surface, execution);
+  if (groups.empty()) return std::nullopt;
+  return unite_shells(surface, groups, {}, execution);
 }
 
 MeshReport report_of(const PolygonSoup& soup) { return report_mesh(make_snapshot(build_mesh(soup)), {1}); }
@@ -107,6 +110,25 @@ TEST_CASE("walls thinner than the grid's cells do not become sieves") {
   REQUIRE(united);
   REQUIRE(united->shells == 2);
   CHECK(report_of(united->soup).genus == 0);
+}
+
+TEST_CASE("a neck much thinner than most of the shells keeps their union one") {
+  // Two balls and a neck of a fiftieth of their radius between them, and a copy half of the neck's radius aside.
+  constexpr double kNeck = 0.02;
+  const PolygonSoup bone = to_soup(stacked_rings(
+      24, 60,
+      [&](Index ring, Index segment) {
+        const double z = -3 + 6.0 * (ring + 0.5) / 60, angle = 2 * kPi * segment / 24.0;
+        const double ball = 1 - (std::abs(z) - 2) * (std::abs(z) - 2);
+        const double radius = std::max(kNeck, ball > 0 ? std::sqrt(ball) : 0.0);
+        return Vector3(radius * std::cos(angle), radius * std::sin(angle), z);
+      },
+      Vector3(0, 0, -3), Vector3(0, 0, 3)));
+  const auto united = unite(together({bone, shifted(bone, {kNeck / 2, 0, 0})}));
+  REQUIRE(united);
+  CHECK(united->shells == 2);
+  CHECK(united->solids == 1);
+  CHECK(report_of(united->soup).components.size() == 1);
 }
 
 TEST_CASE("the union does not depend on the threads, and options are checked") {

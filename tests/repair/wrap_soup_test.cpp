@@ -2,6 +2,7 @@
 #include "mspskel/repair/wrap_soup.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "mspskel/base/error.h"
 #include "mspskel/mesh/build_mesh.h"
@@ -42,6 +43,27 @@ PolygonSoup joined(const PolygonSoup& a, const PolygonSoup& b) {
     both.add_triangle(first + b.corners[i], first + b.corners[i + 1], first + b.corners[i + 2]);
   return both;
 }
+
+PolygonSoup box(const Vector3& low, const Vector3& high) {
+  PolygonSoup soup;
+  for (int k = 0; k < 8; ++k)
+    soup.points.emplace_back((k & 1 ? high : low)[0], (k & 2 ? high : low)[1], (k & 4 ? high : low)[2]);
+  constexpr Index kFaces[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                                   {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  for (const auto& [a, b, c] : kFaces) soup.add_triangle(a, b, c);
+  return soup;
+}
+
+// Boxes, and what they fill each on its own.
+struct Shells {
+  PolygonSoup soup;
+  double filled = 0;
+
+  void add(const Vector3& low, const Vector3& high) {
+    soup = filled > 0 ? joined(soup, box(low, high)) : box(low, high);
+    filled += (high - low).prod();
+  }
+};
 
 struct Shape {
   Index components = 0, genus = 0;
@@ -130,6 +152,57 @@ TEST_CASE("A soup tells the scale of its gaps, whatever the grid that is asked")
   CHECK(shape_of(wide.soup).genus == 0);
 }
 
+TEST_CASE("What only the largest ball cannot leave is a valley, not a solid") {
+  // Hills and valleys on a square, a third of it from one valley to the next.
+  constexpr Index kSteps = 40;
+  PolygonSoup terrain;
+  for (Index j = 0; j <= kSteps; ++j)
+    for (Index i = 0; i <= kSteps; ++i) {
+      const double x = i / double{kSteps}, y = j / double{kSteps};
+      terrain.points.emplace_back(x, y, 0.1 * std::sin(20 * x) * std::sin(20 * y));
+    }
+  for (Index j = 0; j < kSteps; ++j)
+    for (Index i = 0; i < kSteps; ++i) {
+      const Index a = j * (kSteps + 1) + i;
+      terrain.add_triangle(a, a + 1, a + kSteps + 2);
+      terrain.add_triangle(a, a + kSteps + 2, a + kSteps + 1);
+    }
+  WrapOptions options;
+  options.thicken_walls = false;
+  CHECK_FALSE(wrap_soup(terrain, options).encloses);
+}
+
+TEST_CASE("Shells are walls where they shut in more than they fill") {
+  WrapOptions options;
+  options.thicken_walls = false;
+  // A room of six slabs that cross in its edges and corners.
+  Shells room;
+  for (const double x : {-2.0, 1.95}) room.add({x, -1.6, -1.1}, {x + 0.05, 1.6, 1.1});
+  for (const double y : {-1.5, 1.45}) room.add({-2.1, y, -1.1}, {2.1, y + 0.05, 1.1});
+  for (const double z : {-1.0, 0.95}) room.add({-2.1, -1.6, z}, {2.1, 1.6, z + 0.05});
+  options.filled = room.filled;
+  const WrappedSoup solid = wrap_soup(room.soup, options);
+  CHECK(solid.encloses);
+  CHECK(solid.solids == 1);
+  const Shape shape = shape_of(solid.soup);
+  CHECK(shape.components == 1);
+  CHECK(shape.genus == 0);
+  // Without the lid it is a box that is open on purpose, and bars leave what is between them open.
+  Shells tub;
+  for (const double x : {-2.0, 1.95}) tub.add({x, -1.6, -1.1}, {x + 0.05, 1.6, 1.1});
+  for (const double y : {-1.5, 1.45}) tub.add({-2.1, y, -1.1}, {2.1, y + 0.05, 1.1});
+  tub.add({-2.1, -1.6, -1.0}, {2.1, 1.6, -0.95});
+  Shells bars;
+  for (int i = 0; i < 8; ++i) {
+    bars.add({0.3 * i, -0.2, -0.02}, {0.3 * i + 0.04, 2.4, 0.02});
+    bars.add({-0.2, 0.3 * i, -0.02}, {2.4, 0.3 * i + 0.04, 0.02});
+  }
+  for (const Shells* open : {&tub, &bars}) {
+    options.filled = open->filled;
+    CHECK_FALSE(wrap_soup(open->soup, options).encloses);
+  }
+}
+
 TEST_CASE("What wraps a mesh is moved and scaled along with it") {
   const PolygonSoup loose = loose_faces("capsule", 300, 0.1);
   const WrappedSoup one = wrap_soup(loose), other = wrap_soup(moved(loose, 1024, {0, 0, 0}));
@@ -147,5 +220,8 @@ TEST_CASE("What cannot be wrapped is refused") {
   CHECK_THROWS_AS(wrap_soup(nothing), MeshError);
   WrapOptions options;
   options.gap = 0.3;
+  CHECK_THROWS_AS(wrap_soup(nothing, options), UsageError);
+  options = {};
+  options.filled = -1;
   CHECK_THROWS_AS(wrap_soup(nothing, options), UsageError);
 }

@@ -51,6 +51,7 @@ struct MendCounts {
   double hole_share = 0.0;     // of the area of what stays, that they make up
   Index joined_pieces = 0;     // pieces that became parts of those they touch
   Index flat_components = 0;   // pieces without volume
+  double flat_share = 0.0;     // of the area of all pieces, that they make up, without what closes holes
   Index small_components = 0;  // crumbs
   Index small_faces = 0;       // their triangles
 };

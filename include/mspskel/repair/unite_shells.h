@@ -1,7 +1,6 @@
 // Shells that cross each other are one solid: a figure of body, hair and clothes, a pot with its handle.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "mspskel/base/progress.h"
@@ -30,9 +29,13 @@ struct UnitedShells {
   double cell = 0.0;             // the largest, model units
 };
 
-// Each group of components that cross each other becomes the boundary of the union of their solids; nothing
-// if no two cross. Contact does not count: an edge or a vertex of one has to lie in the other by a
-// thousandth of the smaller one's extent.
+// Groups of at least two components that cross each other, each in order. Contact does not count: an edge or
+// a vertex of one has to lie in the other by a thousandth of the smaller one's extent. Cost: a box query a
+// face. Throws Cancelled.
+std::vector<std::vector<Index>> crossing_shells(const SurfaceSnapshot& surface,
+                                                const Execution& execution = {});
+
+// Each group of crossing_shells becomes the boundary of the union of their solids.
 //   The union is sampled at the nodes of a grid near the surface: inside where a shell's own solid has the
 // node. Each cube of the grid is six tetrahedra about one diagonal (Kuhn 1960), and what separates inside
 // from outside in them is a closed manifold (Doi and Koide 1991, "An efficient method of triangulating
@@ -40,10 +43,9 @@ struct UnitedShells {
 // it has more than its n shells have, all are thickened by half a cell's diagonal, and the better union is
 // taken; one that has more than theirs and n is none: they stay apart, as the parts of an assembly do.
 //   Pieces of the union below 0.025 of its extent are left out.
-// Positions are within a cell of the shells. Cost: O(area / cell²) inside queries and distances, in parallel,
-// and for the test of crossing a box query a face. Throws Cancelled.
-std::optional<UnitedShells> unite_crossing_shells(const SurfaceSnapshot& surface,
-                                                  const UniteOptions& options = {},
-                                                  const Execution& execution = {});
+// Positions are within a cell of the shells. Cost: O(area / cell²) inside queries and distances, in parallel.
+// Throws Cancelled.
+UnitedShells unite_shells(const SurfaceSnapshot& surface, const std::vector<std::vector<Index>>& groups,
+                          const UniteOptions& options = {}, const Execution& execution = {});
 
 }  // namespace mspskel
