@@ -1,4 +1,4 @@
-// What hangs on a solid by an edge or a point is a part of it.
+// What hangs on a solid by an edge is a part of it.
 #pragma once
 
 #include <vector>
@@ -13,14 +13,11 @@ namespace mspskel::detail {
 //     /    \                    /    \       the solids are one, over a bridge along the edge. No handle
 //    / void \                  / void \      arises, since that is done once between two pieces.
 //
-//  Where pieces touch in a point v only, two opposite triangles v, a, b are put in between an edge v-a of the
-//  one and an edge v-b of the other, whose ends are near each other: a flat bridge from the one to the other.
-//
 // A piece joins one that it touches if its extent is below `share` of that one's, the largest ones first, and
 // takes along what touches it and is as small: twigs that decimation pinched off, crumbs of voxel surfaces.
-// Pieces without volume join nothing. Changes `twin` and adds to `faces`; returns how many pieces joined others.
+// Pieces without volume join nothing. Changes `twin`; returns how many pieces joined others.
 // Cost: O(n log n).
-Index join_touching_pieces(const std::vector<Vector3>& points, FaceSet& faces, Index wall_count, double share,
-                           std::vector<Index>& twin);
+Index join_touching_pieces(const std::vector<Vector3>& points, const FaceSet& faces, Index wall_count,
+                           double share, std::vector<Index>& twin);
 
 }  // namespace mspskel::detail

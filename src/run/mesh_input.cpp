@@ -56,10 +56,11 @@ double filled_by_shells(const SurfaceSnapshot& surface) {
   for (Index f = 0; f < surface.face_count(); ++f) {
     const Index v = surface.origin[3 * f];
     volume[surface.component[v]] +=
-        surface.face_normal_times_twice_area(f).dot(surface.position[v]) / 6 * std::pow(surface.frame.scale, 3);
+        surface.face_normal_times_twice_area(f).dot(surface.position[v]) / 6;
   }
-  return std::accumulate(volume.begin(), volume.end(), 0.0,
-                         [](double sum, double part) { return sum + std::abs(part); });
+  const double sum = std::accumulate(volume.begin(), volume.end(), 0.0,
+                                     [](double all, double part) { return all + std::abs(part); });
+  return sum * std::pow(surface.frame.scale, 3);
 }
 
 void unite(MeshInput& input, const SurfaceSnapshot& surface, const std::vector<std::vector<Index>>& groups,
@@ -117,8 +118,8 @@ void refuse_sheets(const MendCounts& counts) {
   constexpr double kMostSheets = 0.5;
   if (counts.flat_share <= kMostSheets) return;
   throw MendError("the mesh encloses no volume: " + std::to_string(std::lround(100 * counts.flat_share)) +
-                      " % of its area is open sheets, and what they might stand round is anybody's guess; close "
-                      "it to a solid, or wrap it with --wrap 0.02",
+                      " % of its area is open sheets, and what they might stand round is anybody's guess; "
+                      "close it to a solid, or wrap it with --wrap 0.02",
                   counts);
 }
 

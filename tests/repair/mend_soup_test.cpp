@@ -146,21 +146,6 @@ TEST_CASE(
   CHECK(report.degenerate_faces == 0);
 }
 
-TEST_CASE("a small solid that touches a large one in a corner is a part of it") {
-  VoxelSolid solid;
-  for (int x = 0; x < 9; ++x)
-    for (const auto& [y, z] : {std::pair{0, 0}, {0, 1}, {1, 0}, {1, 1}}) solid.cells.insert({x, y, z});
-  for (const Cell& c : {Cell{9, 2, 2}, {10, 3, 3}, {-1, -1, -1}}) solid.cells.insert(c);
-  const MendedSoup mended = mend_soup(boundary(solid));
-  const Facts facts = facts_of(mended);
-  CHECK(mended.counts.joined_pieces == 3);
-  CHECK(facts.components == 1);
-  CHECK(facts.genus == 0);
-  CHECK(facts.volume == Approx(39).epsilon(0.01));
-  const MeshReport report = report_mesh(make_snapshot(build_mesh(mended.soup)), {0});
-  CHECK(report.degenerate_faces == 0);
-}
-
 TEST_CASE("voxels make as many pieces as they have connected over their faces") {
   Random random(GENERATE(range(1, 9)));
   VoxelSolid solid;

@@ -113,7 +113,8 @@ TEST_CASE("walls thinner than the grid's cells do not become sieves") {
 }
 
 TEST_CASE("a neck much thinner than most of the shells keeps their union one") {
-  // Two balls and a neck of a fiftieth of their radius between them, and a copy half of the neck's radius aside.
+  // Two balls and a neck of a fiftieth of their radius between them, and a copy half of the neck's radius
+  // aside.
   constexpr double kNeck = 0.02;
   const PolygonSoup bone = to_soup(stacked_rings(
       24, 60,

@@ -17,8 +17,8 @@ struct WrapOptions {
   // made.
   bool thicken_walls = true;
   // Where the soup is closed shells that cross each other: the sum of what each of them fills, model units
-  // cubed; at least 0. They are walls, and enclose something, only where a gap of 0.0125, which is the one that
-  // is closed then, shuts in more than as much again.
+  // cubed; at least 0. They are walls, and enclose something, only where a gap of 0.0125, which is the one
+  // that is closed then, shuts in more than as much again.
   double filled = 0.0;
 };
 
@@ -30,7 +30,8 @@ struct WrappedSoup {
   std::vector<Index> vertex_of_point;  // the vertex nearest to each point; kNone for points of no face
   double gap = 0.0, cell = 0.0;        // model units
   // Whether more is enclosed than the walls take at the largest scale that the soup was asked for, or than
-  // its shells fill; where it is not, the soup has told no scale: its faces were given a thickness, or all else here is empty.
+  // its shells fill; where it is not, the soup has told no scale: its faces were given a thickness, or all
+  // else here is empty.
   bool encloses = true;
   Index solids = 0, small_components = 0;
 };
@@ -39,10 +40,11 @@ struct WrappedSoup {
 // that it does not pass are closed, hollows that it does not find are filled, double walls and crossing faces
 // are inside. Faces that enclose nothing get a thickness of less than two cells of the grid; all else grows
 // outward by less than one. Crumbs below 0.025 of the largest piece's extent are left out.
-//   On a grid whose cells are a quarter of the gap, but from 0.004 to 0.01 of the extent, or from 0.00625 where
-// the soup tells the scale: distances from the faces, a flood from outside where the ball fits, distances
-// from what it reached, and the surface where they equal its radius, cut in tetrahedra. The scale is told by
-// volumes on a grid of cells of 0.0125. Faces with corners that are not finite, or not there, are left out.
+//   On a grid whose cells are a quarter of the gap, but from 0.004 to 0.01 of the extent, or from 0.00625
+// where the soup tells the scale: distances from the faces, a flood from outside where the ball fits,
+// distances from what it reached, and the surface where they equal its radius, cut in tetrahedra. The scale
+// is told by volumes on a grid of cells of 0.0125. Faces with corners that are not finite, or not there, are
+// left out.
 // Throws MeshError if no face has an extent, Cancelled. Cost: O(nodes + faces + surface / cell²); 40 bytes a
 // node.
 WrappedSoup wrap_soup(const PolygonSoup& soup, const WrapOptions& options = {},
