@@ -109,8 +109,8 @@ TEST_CASE("A part with cavities names the component's faces as the part without 
   const std::vector<Index>& faces = solids.faces[1];
   const std::size_t own = faces.size() / 2;
   const SurfaceSnapshot alone =
-      surface_part(whole, {faces.begin(), faces.begin() + static_cast<std::ptrdiff_t>(own)}, own).surface;
-  const SurfaceSnapshot bounds = surface_part(whole, faces, own).surface;
+      surface_part(whole, {faces.begin(), faces.begin() + static_cast<std::ptrdiff_t>(own)}).surface;
+  const SurfaceSnapshot bounds = solid_part(whole, faces, own, alone.frame).surface;
   REQUIRE(bounds.face_count() == 2 * alone.face_count());
   for (Index h = 0; h < alone.halfedge_count(); ++h) {
     CHECK(bounds.position[bounds.origin[h]] == alone.position[alone.origin[h]]);

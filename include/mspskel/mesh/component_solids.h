@@ -36,12 +36,14 @@ struct SurfacePart {
   std::vector<Index> vertex;  // of the whole, per vertex of the part
 };
 
-// `faces` are whole components. The first `measured` of them come first in the part too, each list by its
-// numbers: a part with cavities names the faces of the component as the part without them does. The part has
-// a frame of its own, measured on those first faces, so that what a component gets does not depend on the
-// others. Cost: O(vertices of the part · log) and two passes.
-SurfacePart surface_part(const SurfaceSnapshot& surface, const std::vector<Index>& faces,
-                         std::size_t measured);
+// Whole components, in the order of their numbers, with a frame of their own: what a component gets does not
+// depend on the others. Cost: O(faces), times a logarithm where their numbers lie far apart.
+SurfacePart surface_part(const SurfaceSnapshot& surface, const std::vector<Index>& faces);
+
+// What bounds a component's solid, in the frame of the component's own part: of `faces` the first `own` are the
+// component, which come first here too and are named as in its own part; the others bound cavities.
+SurfacePart solid_part(const SurfaceSnapshot& surface, const std::vector<Index>& faces, std::size_t own,
+                       const NormalisedFrame& frame);
 
 }  // namespace mspskel
 

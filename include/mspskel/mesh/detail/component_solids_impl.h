@@ -43,43 +43,84 @@ MSPSKEL_INLINE ComponentSolids find_component_solids(const SurfaceSnapshot& surf
   return solids;
 }
 
-MSPSKEL_INLINE SurfacePart surface_part(const SurfaceSnapshot& surface, const std::vector<Index>& faces,
-                                        std::size_t measured) {
-  SurfacePart part;
-  for (const Index f : faces)
-    for (Index h = 3 * f; h < 3 * f + 3; ++h) part.vertex.push_back(surface.origin[h]);
-  std::sort(part.vertex.begin(), part.vertex.end());
-  part.vertex.erase(std::unique(part.vertex.begin(), part.vertex.end()), part.vertex.end());
-  const auto place_in = [](const std::vector<Index>& list, std::size_t begin, std::size_t end, Index x) {
-    const auto first = list.begin() + static_cast<std::ptrdiff_t>(begin);
-    const auto last = list.begin() + static_cast<std::ptrdiff_t>(end);
-    return static_cast<Index>(std::lower_bound(first, last, x) - list.begin());
-  };
-  std::vector<Index> sorted = faces;
-  const auto others = sorted.begin() + static_cast<std::ptrdiff_t>(measured);
-  std::sort(sorted.begin(), others);
-  std::sort(others, sorted.end());
-  SurfaceSnapshot& s = part.surface;
-  for (const Index v : part.vertex) s.position.push_back(surface.frame.to_model(surface.position[v]));
-  for (std::size_t k = 0; k < sorted.size(); ++k) {
-    // A face and its neighbours are of one component, so they stand in the same of the two lists.
-    const std::size_t begin = k < measured ? 0 : measured, end = k < measured ? measured : sorted.size();
-    for (Index h = 3 * sorted[k]; h < 3 * sorted[k] + 3; ++h) {
-      const Index twin = surface.twin[h];
-      s.origin.push_back(place_in(part.vertex, 0, part.vertex.size(), surface.origin[h]));
-      s.twin.push_back(3 * place_in(sorted, begin, end, twin / 3) + twin % 3);
+namespace detail {
+
+// Numbers in order without repetition, each with its place among them. Where they lie close together, as those of
+// a component mostly do, a table tells the place; else a search does.
+class OrderedNumbers {
+ public:
+  explicit OrderedNumbers(const std::vector<Index>& numbers) {
+    const auto [low, high] = std::minmax_element(numbers.begin(), numbers.end());
+    first_ = numbers.empty() ? 0 : *low;
+    const std::size_t range = numbers.empty() ? 0 : static_cast<std::size_t>(*high - first_) + 1;
+    if (range <= kLoosest * numbers.size()) {
+      table_.assign(range, kNone);
+      for (const Index x : numbers) table_[x - first_] = 0;
+      for (std::size_t k = 0; k < range; ++k) {
+        if (table_[k] == kNone) continue;
+        table_[k] = static_cast<Index>(ordered_.size());
+        ordered_.push_back(first_ + static_cast<Index>(k));
+      }
+    } else {
+      ordered_ = numbers;
+      std::sort(ordered_.begin(), ordered_.end());
+      ordered_.erase(std::unique(ordered_.begin(), ordered_.end()), ordered_.end());
     }
   }
-  if (measured == faces.size()) {
-    s.vertex_halfedge.assign(s.position.size(), 0);  // every vertex has faces
-    detail::normalise(s);
-  } else {
-    s.frame = surface_part(surface, {faces.begin(), faces.begin() + static_cast<std::ptrdiff_t>(measured)},
-                           measured)
-                  .surface.frame;
-    for (Vector3& p : s.position) p = s.frame.to_normalised(p);
+  const std::vector<Index>& ordered() const { return ordered_; }
+  Index place(Index x) const {
+    if (!table_.empty()) return table_[x - first_];
+    return static_cast<Index>(std::lower_bound(ordered_.begin(), ordered_.end(), x) - ordered_.begin());
   }
-  detail::complete_snapshot(s);
+
+ private:
+  static constexpr std::size_t kLoosest = 8;  // entries of the table per number
+  std::vector<Index> ordered_, table_;
+  Index first_;
+};
+
+// Positions in model coordinates and connectivity. Each list of faces is that of whole components, so a face's
+// neighbours are in its list.
+inline SurfacePart connect_part(const SurfaceSnapshot& surface, const std::vector<std::vector<Index>>& lists) {
+  SurfacePart part;
+  std::vector<Index> corners;
+  for (const std::vector<Index>& faces : lists)
+    for (const Index f : faces) corners.insert(corners.end(), &surface.origin[3 * f], &surface.origin[3 * f] + 3);
+  const OrderedNumbers vertices(corners);
+  part.vertex = vertices.ordered();
+  SurfaceSnapshot& s = part.surface;
+  for (const Index v : part.vertex) s.position.push_back(surface.frame.to_model(surface.position[v]));
+  Index before = 0;  // faces of the lists before
+  for (const std::vector<Index>& faces : lists) {
+    const OrderedNumbers order(faces);
+    for (const Index f : order.ordered())
+      for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+        const Index twin = surface.twin[h];
+        s.origin.push_back(vertices.place(surface.origin[h]));
+        s.twin.push_back(3 * (before + order.place(twin / 3)) + twin % 3);
+      }
+    before += static_cast<Index>(faces.size());
+  }
+  return part;
+}
+
+}  // namespace detail
+
+MSPSKEL_INLINE SurfacePart surface_part(const SurfaceSnapshot& surface, const std::vector<Index>& faces) {
+  SurfacePart part = detail::connect_part(surface, {faces});
+  part.surface.vertex_halfedge.assign(part.surface.position.size(), 0);  // every vertex has faces
+  detail::normalise(part.surface);
+  detail::complete_snapshot(part.surface);
+  return part;
+}
+
+MSPSKEL_INLINE SurfacePart solid_part(const SurfaceSnapshot& surface, const std::vector<Index>& faces,
+                                      std::size_t own, const NormalisedFrame& frame) {
+  const auto cavities = faces.begin() + static_cast<std::ptrdiff_t>(own);
+  SurfacePart part = detail::connect_part(surface, {{faces.begin(), cavities}, {cavities, faces.end()}});
+  part.surface.frame = frame;
+  for (Vector3& p : part.surface.position) p = frame.to_normalised(p);
+  detail::complete_snapshot(part.surface);
   return part;
 }
 

@@ -80,11 +80,11 @@ class ComponentwiseExtraction {
   }
 
   void extract_one(Index c, const ExtractOptions& options) {
-    SurfacePart own = surface_part(surface_, own_[c], own_[c].size());
+    SurfacePart own = surface_part(surface_, own_[c]);
     vertex_[c] = std::move(own.vertex);
     std::optional<SurfacePart> bounds;
     if (solids_.faces[c].size() > own_[c].size())
-      bounds = surface_part(surface_, solids_.faces[c], own_[c].size());
+      bounds = solid_part(surface_, solids_.faces[c], own_[c].size(), own.surface.frame);
     part_[c] = extract_component(std::move(own.surface), bounds ? &bounds->surface : nullptr, options);
   }
 
