@@ -7,32 +7,12 @@
 #include "mspskel/mesh/build_mesh.h"
 #include "mspskel/mesh/mesh_report.h"
 #include "support/meshes.h"
+#include "support/soups.h"
 
 using namespace mspskel;
 using namespace mspskel::test;
 
 namespace {
-
-PolygonSoup box(const Vector3& low, const Vector3& high) {
-  PolygonSoup soup;
-  for (int k = 0; k < 8; ++k)
-    soup.points.emplace_back((k & 1 ? high : low)[0], (k & 2 ? high : low)[1], (k & 4 ? high : low)[2]);
-  constexpr Index kFaces[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                                   {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  for (const auto& [a, b, c] : kFaces) soup.add_triangle(a, b, c);
-  return soup;
-}
-
-PolygonSoup together(const std::vector<PolygonSoup>& soups) {
-  PolygonSoup all;
-  for (const PolygonSoup& soup : soups) {
-    const auto first = static_cast<Index>(all.points.size());
-    all.points.insert(all.points.end(), soup.points.begin(), soup.points.end());
-    for (std::size_t i = 0; i < soup.corners.size(); i += 3)
-      all.add_triangle(first + soup.corners[i], first + soup.corners[i + 1], first + soup.corners[i + 2]);
-  }
-  return all;
-}
 
 PolygonSoup shifted(PolygonSoup soup, const Vector3& by) {
   for (Vector3& p : soup.points) p += by;

@@ -7,8 +7,10 @@
 #include "mspskel/base/error.h"
 #include "mspskel/mesh/build_mesh.h"
 #include "mspskel/samples/samples.h"
+#include "support/soups.h"
 
 using namespace mspskel;
+using namespace mspskel::test;
 
 namespace {
 
@@ -35,32 +37,13 @@ PolygonSoup moved(const PolygonSoup& soup, double scale, const Vector3& way) {
   return result;
 }
 
-PolygonSoup joined(const PolygonSoup& a, const PolygonSoup& b) {
-  PolygonSoup both = a;
-  const auto first = static_cast<Index>(a.points.size());
-  both.points.insert(both.points.end(), b.points.begin(), b.points.end());
-  for (std::size_t i = 0; i < b.corners.size(); i += 3)
-    both.add_triangle(first + b.corners[i], first + b.corners[i + 1], first + b.corners[i + 2]);
-  return both;
-}
-
-PolygonSoup box(const Vector3& low, const Vector3& high) {
-  PolygonSoup soup;
-  for (int k = 0; k < 8; ++k)
-    soup.points.emplace_back((k & 1 ? high : low)[0], (k & 2 ? high : low)[1], (k & 4 ? high : low)[2]);
-  constexpr Index kFaces[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                                   {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  for (const auto& [a, b, c] : kFaces) soup.add_triangle(a, b, c);
-  return soup;
-}
-
 // Boxes, and what they fill each on its own.
 struct Shells {
   PolygonSoup soup;
   double filled = 0;
 
   void add(const Vector3& low, const Vector3& high) {
-    soup = filled > 0 ? joined(soup, box(low, high)) : box(low, high);
+    soup = filled > 0 ? together({soup, box(low, high)}) : box(low, high);
     filled += (high - low).prod();
   }
 };
@@ -98,7 +81,7 @@ TEST_CASE("Solids farther apart than the gap stay apart, nearer ones become one"
   const PolygonSoup ball = loose_faces("sphere", 400, 0.0);
   double width = 0;
   for (const Vector3& p : ball.points) width = std::max(width, 2 * std::abs(p.x()));
-  const PolygonSoup two = joined(ball, moved(ball, 1, {1.1 * width, 0, 0}));
+  const PolygonSoup two = together({ball, moved(ball, 1, {1.1 * width, 0, 0})});
   WrapOptions options;
   options.gap = 0.02;  // of an extent of about 2.5 widths
   CHECK(shape_of(wrap_soup(two, options).soup).components == 2);
@@ -110,7 +93,7 @@ TEST_CASE("Solids with a limb between them that is pressed to a line are one") {
   SampleOptions options;
   options.resolution = 500;
   const PolygonSoup ball = make_sample("sphere", options);
-  PolygonSoup both = joined(ball, moved(ball, 1, {6, 0, 0}));
+  PolygonSoup both = together({ball, moved(ball, 1, {6, 0, 0})});
   CHECK(wrap_soup(both).solids == 2);
   const auto first = static_cast<Index>(both.points.size());
   both.points.insert(both.points.end(), {{1, 0, 0}, {5, 0, 0}, {5, 0, 0}});
