@@ -8,6 +8,7 @@
 #include "mspskel/arcs/detail/hub_components.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/samples/skin_graph.h"
+#include "mspskel/solid/detail/inner_graph.h"
 #include "support/arc_graphs.h"
 #include "support/solids.h"
 

@@ -6,6 +6,7 @@
 #include "mspskel/extract_skeleton.h"
 #include "mspskel/skeleton/check_skeleton.h"
 #include "mspskel/skeleton/useless_pieces.h"
+#include "mspskel/solid/detail/inner_graph.h"
 #include "support/solids.h"
 #include "topology/voxel_solids.h"
 

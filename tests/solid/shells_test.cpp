@@ -12,6 +12,7 @@
 #include "mspskel/extract_skeleton.h"
 #include "mspskel/limbs/limb_tips.h"
 #include "mspskel/samples/polygonise.h"
+#include "mspskel/solid/detail/inner_graph.h"
 #include "support/solids.h"
 
 using namespace mspskel;

@@ -2,12 +2,18 @@
 // surface.
 #pragma once
 
+#include <vector>
+
 #include "mspskel/arcs/arc_graph.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/mesh/surface_snapshot.h"
-#include "mspskel/solid/detail/inner_graph.h"
 
 namespace mspskel {
+
+namespace detail {
+class InnerGraph;
+class InnerPaths;
+}  // namespace detail
 
 struct RoutingResult {
   Index hubs_moved = 0;  // hubs that lay outside

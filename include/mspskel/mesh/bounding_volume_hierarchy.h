@@ -92,6 +92,17 @@ class BoundingVolumeHierarchy {
   std::vector<detail::TriangleBlock> blocks_;  // per leaf
 };
 
+template <class Visit>
+void BoundingVolumeHierarchy::for_each_in_box(const Vector3& low, const Vector3& high, Visit visit) const {
+  tree_.in_box(low, high, [&](Index first, Index count) {
+    for (Index i = first; i < first + count; ++i)
+      if (!visit(face_[i])) return false;
+    return true;
+  });
+}
+
 }  // namespace mspskel
 
+#ifndef MSPSKEL_COMPILED
 #include "mspskel/mesh/detail/bounding_volume_hierarchy_impl.h"
+#endif

@@ -85,6 +85,58 @@ std::vector<Index> twice_euler_characteristics(const SurfaceSnapshot& surface);
 template <class Mesh>
 SurfaceSnapshot make_snapshot(const Mesh& mesh);
 
+namespace detail {
+// Throws MeshError where two fans meet at a vertex.
+void check_vertex_fans(const SurfaceSnapshot& surface);
+// From the model's positions to the frame and the positions in it. Throws MeshError.
+void normalise(SurfaceSnapshot& surface);
+// What follows from the half-edges and the normalised positions.
+void complete_snapshot(SurfaceSnapshot& surface);
+}  // namespace detail
+
+template <class Mesh>
+SurfaceSnapshot make_snapshot(const Mesh& mesh) {
+  SurfaceSnapshot s;
+  if (mesh.n_faces() == 0) throw MeshError("the mesh has no faces");
+  if (mesh.n_faces() > static_cast<std::size_t>(700'000'000))
+    throw MeshError("the mesh has more than 700 million faces");
+  s.position.resize(mesh.n_vertices());
+  for (const auto v : mesh.vertices())
+    s.position[static_cast<std::size_t>(v.idx())] = to_vector3(mesh.point(v));
+  s.origin.resize(3 * mesh.n_faces());
+  s.twin.assign(3 * mesh.n_faces(), kNone);
+  s.vertex_halfedge.assign(mesh.n_vertices(), kNone);
+
+  std::vector<Index> flat(mesh.n_halfedges(), kNone);  // OpenMesh half-edge -> flat half-edge
+  for (const auto f : mesh.faces()) {
+    Index h = 3 * static_cast<Index>(f.idx());
+    for (auto it = mesh.cfh_iter(f); it.is_valid(); ++it, ++h) {
+      flat[static_cast<std::size_t>(it->idx())] = h;
+      s.origin[h] = static_cast<Index>(mesh.from_vertex_handle(*it).idx());
+      if (s.vertex_halfedge[s.origin[h]] == kNone) s.vertex_halfedge[s.origin[h]] = h;
+    }
+  }
+  for (const auto e : mesh.edges()) {
+    const auto h0 = mesh.halfedge_handle(e, 0), h1 = mesh.halfedge_handle(e, 1);
+    const Index a = flat[static_cast<std::size_t>(h0.idx())], b = flat[static_cast<std::size_t>(h1.idx())];
+    if (a == kNone || b == kNone)
+      throw MeshError("the mesh is not closed: edge " + std::to_string(mesh.from_vertex_handle(h0).idx()) +
+                      "-" + std::to_string(mesh.to_vertex_handle(h0).idx()) + " has fewer than two faces");
+    s.twin[a] = b;
+    s.twin[b] = a;
+  }
+  detail::check_vertex_fans(s);
+  detail::normalise(s);
+  detail::complete_snapshot(s);
+  return s;
+}
+
 }  // namespace mspskel
 
+#ifdef MSPSKEL_COMPILED
+namespace mspskel {
+extern template SurfaceSnapshot make_snapshot<DefaultMesh>(const DefaultMesh&);
+}
+#else
 #include "mspskel/mesh/detail/surface_snapshot_impl.h"
+#endif

@@ -5,6 +5,7 @@
 #include "mspskel/arcs/zip_arcs.h"
 #include "mspskel/limbs/limb_tips.h"
 #include "mspskel/refine/aim_ends.h"
+#include "mspskel/solid/detail/inner_graph.h"
 
 namespace mspskel {
 

@@ -5,6 +5,7 @@
 
 #include "mspskel/arcs/detail/hub_components.h"
 #include "mspskel/base/linkage.h"
+#include "mspskel/solid/detail/inner_graph.h"
 
 namespace mspskel {
 namespace detail {

@@ -11,6 +11,7 @@
 #include "mspskel/arcs/detail/vessel_trees.h"
 #include "mspskel/base/linkage.h"
 #include "mspskel/solid/detail/axis_stretch.h"
+#include "mspskel/solid/detail/inner_graph.h"
 
 namespace mspskel {
 namespace detail {

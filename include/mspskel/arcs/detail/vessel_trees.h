@@ -13,6 +13,7 @@
 #include "mspskel/arcs/detail/tight_line.h"
 #include "mspskel/mesh/detail/solid_moments.h"
 #include "mspskel/solid/detail/axis_stretch.h"
+#include "mspskel/solid/detail/inner_graph.h"
 
 namespace mspskel {
 namespace detail {

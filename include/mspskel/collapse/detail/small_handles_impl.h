@@ -10,6 +10,7 @@
 #include "mspskel/base/linkage.h"
 #include "mspskel/collapse/detail/homology_generators.h"
 #include "mspskel/collapse/label_rank.h"
+#include "mspskel/mesh/detail/extent.h"
 
 namespace mspskel {
 namespace detail {

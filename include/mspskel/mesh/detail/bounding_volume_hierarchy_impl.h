@@ -1,9 +1,13 @@
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <numeric>
 
 #include "mspskel/base/clones.h"
 #include "mspskel/base/even_directions.h"
+#include "mspskel/base/linkage.h"
+#include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/mesh/detail/segment_triangle.h"
 
 namespace mspskel {
@@ -19,7 +23,7 @@ inline PrimitiveBox box_of(const Triangle& t, Index primitive) {
 
 }  // namespace detail
 
-inline BoundingVolumeHierarchy::BoundingVolumeHierarchy(const SurfaceSnapshot& s,
+MSPSKEL_INLINE BoundingVolumeHierarchy::BoundingVolumeHierarchy(const SurfaceSnapshot& s,
                                                         const ProgressCallback& progress)
     : BoundingVolumeHierarchy(
           s,
@@ -30,7 +34,7 @@ inline BoundingVolumeHierarchy::BoundingVolumeHierarchy(const SurfaceSnapshot& s
           }(),
           progress) {}
 
-inline BoundingVolumeHierarchy::BoundingVolumeHierarchy(const SurfaceSnapshot& s,
+MSPSKEL_INLINE BoundingVolumeHierarchy::BoundingVolumeHierarchy(const SurfaceSnapshot& s,
                                                         const std::vector<Index>& faces,
                                                         const ProgressCallback& progress) {
   const auto triangle = [&](Index f) {
@@ -56,7 +60,7 @@ inline BoundingVolumeHierarchy::BoundingVolumeHierarchy(const SurfaceSnapshot& s
   }
 }
 
-MSPSKEL_AVX_CLONES inline ClosestPoint BoundingVolumeHierarchy::closest(const Vector3& p,
+MSPSKEL_AVX_CLONES MSPSKEL_INLINE ClosestPoint BoundingVolumeHierarchy::closest(const Vector3& p,
                                                                         double bound) const {
   ClosestPoint best;
   double square = bound * bound;
@@ -96,7 +100,7 @@ void BoundingVolumeHierarchy::along_ray(const Vector3& origin, const Vector3& un
   });
 }
 
-MSPSKEL_AVX_CLONES inline std::optional<RayHit> BoundingVolumeHierarchy::first_hit(
+MSPSKEL_AVX_CLONES MSPSKEL_INLINE std::optional<RayHit> BoundingVolumeHierarchy::first_hit(
     const Vector3& origin, const Vector3& direction, double max_distance) const {
   const Vector3 unit = direction.normalized();
   RayHit best{kNone, max_distance};
@@ -111,7 +115,7 @@ MSPSKEL_AVX_CLONES inline std::optional<RayHit> BoundingVolumeHierarchy::first_h
   return best;
 }
 
-inline Index BoundingVolumeHierarchy::count_hits(const Vector3& origin, const Vector3& direction,
+MSPSKEL_INLINE Index BoundingVolumeHierarchy::count_hits(const Vector3& origin, const Vector3& direction,
                                                  double max_distance) const {
   const Vector3 unit = direction.normalized();
   Index hits = 0;
@@ -125,7 +129,7 @@ inline Index BoundingVolumeHierarchy::count_hits(const Vector3& origin, const Ve
   return hits;
 }
 
-inline void BoundingVolumeHierarchy::ray_fan(const Vector3& p, const Vector3& u, const Vector3& w, int count,
+MSPSKEL_INLINE void BoundingVolumeHierarchy::ray_fan(const Vector3& p, const Vector3& u, const Vector3& w, int count,
                                              double* distance) const {
   const std::vector<Vector2>& direction = even_directions(count);
   for (int k = 0; k < count; ++k) {
@@ -134,7 +138,7 @@ inline void BoundingVolumeHierarchy::ray_fan(const Vector3& p, const Vector3& u,
   }
 }
 
-inline bool BoundingVolumeHierarchy::inside(const Vector3& p) const {
+MSPSKEL_INLINE bool BoundingVolumeHierarchy::inside(const Vector3& p) const {
   // Spread by the golden angle, so that no two are alike and none is parallel to an axis or a diagonal. The
   // one that points away from the middle has the least surface ahead.
   constexpr int kDirections = 16;
@@ -168,7 +172,7 @@ inline bool BoundingVolumeHierarchy::inside(const Vector3& p) const {
 
 // By the solid angles of the triangles (Van Oosterom, Strackee 1983). O(faces): for points that no ray could
 // settle.
-inline bool BoundingVolumeHierarchy::in_winding(const Vector3& p) const {
+MSPSKEL_INLINE bool BoundingVolumeHierarchy::in_winding(const Vector3& p) const {
   double angle = 0.0;
   for (std::size_t i = 0; i < triangles_.size(); ++i) {
     if (face_[i] == kNone) continue;
@@ -180,7 +184,7 @@ inline bool BoundingVolumeHierarchy::in_winding(const Vector3& p) const {
   return std::lround(angle / (4 * kPi)) % 2 != 0;
 }
 
-MSPSKEL_AVX_CLONES inline bool BoundingVolumeHierarchy::segment_crosses(const Vector3& a,
+MSPSKEL_AVX_CLONES MSPSKEL_INLINE bool BoundingVolumeHierarchy::segment_crosses(const Vector3& a,
                                                                         const Vector3& b) const {
   const double length = (b - a).norm();
   if (!(length > 0)) return false;
@@ -190,15 +194,6 @@ MSPSKEL_AVX_CLONES inline bool BoundingVolumeHierarchy::segment_crosses(const Ve
     return !crossed;
   });
   return crossed;
-}
-
-template <class Visit>
-void BoundingVolumeHierarchy::for_each_in_box(const Vector3& low, const Vector3& high, Visit visit) const {
-  tree_.in_box(low, high, [&](Index first, Index count) {
-    for (Index i = first; i < first + count; ++i)
-      if (!visit(face_[i])) return false;
-    return true;
-  });
 }
 
 }  // namespace mspskel

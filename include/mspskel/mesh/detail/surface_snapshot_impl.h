@@ -3,27 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mspskel/base/linkage.h"
+#include "mspskel/mesh/detail/extent.h"
 #include "mspskel/mesh/detail/unit_scale.h"
+#include "mspskel/mesh/surface_snapshot.h"
 
 namespace mspskel {
 namespace detail {
 
-// The extent of the points by a double sweep: the vertex farthest from the centroid, then the one farthest
-// from that. It turns with the model, unlike a bounding box, and is at least half the largest distance
-// between two vertices.
-inline double extent(const std::vector<Vector3>& points, const Vector3& centroid) {
-  const auto farthest = [&](const Vector3& from) {
-    Vector3 result = from;
-    double most = -1;
-    for (const Vector3& p : points)
-      if (const double square = (p - from).squaredNorm(); square > most) most = square, result = p;
-    return result;
-  };
-  const Vector3 end = farthest(centroid);
-  return (farthest(end) - end).norm();
-}
-
-inline void normalise(SurfaceSnapshot& s) {
+MSPSKEL_INLINE void normalise(SurfaceSnapshot& s) {
   for (std::size_t v = 0; v < s.position.size(); ++v)
     if (!s.position[v].allFinite())
       throw MeshError("vertex " + std::to_string(v) + " has a coordinate that is not finite");
@@ -101,7 +89,7 @@ inline void number_components(SurfaceSnapshot& s) {
   }
 }
 
-inline void check_vertex_fans(const SurfaceSnapshot& s) {
+MSPSKEL_INLINE void check_vertex_fans(const SurfaceSnapshot& s) {
   const auto fan_size = [&](Index v) {
     const Index first = s.vertex_halfedge[v];
     Index size = 0, h = first;
@@ -123,8 +111,7 @@ inline void check_vertex_fans(const SurfaceSnapshot& s) {
       throw MeshError("several fans of faces meet at vertex " + std::to_string(v));
 }
 
-// What follows from the half-edges and the normalised positions.
-inline void complete_snapshot(SurfaceSnapshot& s) {
+MSPSKEL_INLINE void complete_snapshot(SurfaceSnapshot& s) {
   s.vertex_halfedge.assign(s.position.size(), kNone);
   for (Index h = s.halfedge_count() - 1; h >= 0; --h) s.vertex_halfedge[s.origin[h]] = h;
   measure_vertices(s);
@@ -133,44 +120,7 @@ inline void complete_snapshot(SurfaceSnapshot& s) {
 
 }  // namespace detail
 
-template <class Mesh>
-SurfaceSnapshot make_snapshot(const Mesh& mesh) {
-  SurfaceSnapshot s;
-  if (mesh.n_faces() == 0) throw MeshError("the mesh has no faces");
-  if (mesh.n_faces() > static_cast<std::size_t>(700'000'000))
-    throw MeshError("the mesh has more than 700 million faces");
-  s.position.resize(mesh.n_vertices());
-  for (const auto v : mesh.vertices())
-    s.position[static_cast<std::size_t>(v.idx())] = to_vector3(mesh.point(v));
-  s.origin.resize(3 * mesh.n_faces());
-  s.twin.assign(3 * mesh.n_faces(), kNone);
-  s.vertex_halfedge.assign(mesh.n_vertices(), kNone);
-
-  std::vector<Index> flat(mesh.n_halfedges(), kNone);  // OpenMesh half-edge -> flat half-edge
-  for (const auto f : mesh.faces()) {
-    Index h = 3 * static_cast<Index>(f.idx());
-    for (auto it = mesh.cfh_iter(f); it.is_valid(); ++it, ++h) {
-      flat[static_cast<std::size_t>(it->idx())] = h;
-      s.origin[h] = static_cast<Index>(mesh.from_vertex_handle(*it).idx());
-      if (s.vertex_halfedge[s.origin[h]] == kNone) s.vertex_halfedge[s.origin[h]] = h;
-    }
-  }
-  for (const auto e : mesh.edges()) {
-    const auto h0 = mesh.halfedge_handle(e, 0), h1 = mesh.halfedge_handle(e, 1);
-    const Index a = flat[static_cast<std::size_t>(h0.idx())], b = flat[static_cast<std::size_t>(h1.idx())];
-    if (a == kNone || b == kNone)
-      throw MeshError("the mesh is not closed: edge " + std::to_string(mesh.from_vertex_handle(h0).idx()) +
-                      "-" + std::to_string(mesh.to_vertex_handle(h0).idx()) + " has fewer than two faces");
-    s.twin[a] = b;
-    s.twin[b] = a;
-  }
-  detail::check_vertex_fans(s);
-  detail::normalise(s);
-  detail::complete_snapshot(s);
-  return s;
-}
-
-inline std::vector<Index> twice_euler_characteristics(const SurfaceSnapshot& surface) {
+MSPSKEL_INLINE std::vector<Index> twice_euler_characteristics(const SurfaceSnapshot& surface) {
   std::vector<Index> result(static_cast<std::size_t>(surface.component_count), 0);
   for (Index v = 0; v < surface.vertex_count(); ++v)
     if (surface.vertex_halfedge[v] != kNone) result[surface.component[v]] += 2;

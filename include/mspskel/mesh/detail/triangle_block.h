@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "mspskel/mesh/detail/box_tree.h"
-#include "mspskel/mesh/detail/triangle_queries.h"
+#include "mspskel/mesh/detail/triangle.h"
 
 namespace mspskel {
 namespace detail {

@@ -6,13 +6,10 @@
 #include <cmath>
 
 #include "mspskel/base/types.h"
+#include "mspskel/mesh/detail/triangle.h"
 
 namespace mspskel {
 namespace detail {
-
-struct Triangle {
-  Vector3 a, b, c;
-};
 
 // The point of the segment from a to b nearest to p; a where both are one point.
 inline Vector3 closest_on_segment(const Vector3& p, const Vector3& a, const Vector3& b) {

@@ -13,6 +13,7 @@
 #include "mspskel/refine/detail/arc_leaves.h"
 #include "mspskel/refine/detail/arc_sections.h"
 #include "mspskel/solid/detail/ball_tree.h"
+#include "mspskel/solid/detail/inner_graph.h"
 
 namespace mspskel {
 namespace detail {

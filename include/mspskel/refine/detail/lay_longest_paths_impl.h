@@ -13,6 +13,7 @@
 #include "mspskel/mesh/inner_distance.h"
 #include "mspskel/skeleton/useless_pieces.h"
 #include "mspskel/solid/detail/axis_stretch.h"
+#include "mspskel/solid/detail/inner_graph.h"
 
 namespace mspskel {
 namespace detail {

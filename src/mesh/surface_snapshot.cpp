@@ -1,5 +1,6 @@
-// Compiles the half-edge snapshot for the default mesh type once.
 #include "mspskel/mesh/surface_snapshot.h"
+
+#include "mspskel/mesh/detail/surface_snapshot_impl.h"
 
 namespace mspskel {
 template SurfaceSnapshot make_snapshot<DefaultMesh>(const DefaultMesh&);
