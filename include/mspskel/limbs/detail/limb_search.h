@@ -57,6 +57,7 @@ class LimbTipSearch {
           if (finish(low)) high.notes.own = std::max(high.notes.own, distance_[saddle]);
           high.notes.area += low.notes.area;
           high.notes.vertices += low.notes.vertices;
+          high.notes.euler += low.notes.euler;
         },
         [&](Part& part, Index v) { join(part, v); });
     parts.for_each_left([&](Part& part) { finish(part); });
@@ -64,11 +65,16 @@ class LimbTipSearch {
   }
 
  private:
+  struct Level {
+    double slenderness = 0, distance = 0;
+  };
   struct Notes {
     double area = 0;
     Index vertices = 0;
-    double slenderness = 0, level = 0;  // where it is most slender
-    double own = 0;                     // where it first met another limb
+    Index euler = 0;      // its Euler characteristic: 1 while it is a disc
+    Level slenderest;     // of all levels
+    Level slenderest_disc;
+    double own = 0;  // where it first met another limb
   };
   using Part = GrowingParts<Notes>::Part;
 
@@ -77,15 +83,31 @@ class LimbTipSearch {
     Notes& notes = part.notes;
     notes.area += surface_.vertex_area[v];
     ++notes.vertices;
+    notes.euler += euler_change(v);
     if (notes.area > half_area_[surface_.component[v]]) return;
     const double depth = distance_[part.top] - distance_[v];
     const double slenderness = 2 * kPi * depth * depth / notes.area;
     if (!(depth > kLeastTipDepth * smallest_feature(v)) || slenderness * notes.vertices < kLeastEvidence)
       return;
-    if (slenderness > notes.slenderness) {
-      notes.slenderness = slenderness;
-      notes.level = distance_[v];
-    }
+    const Level level{slenderness, distance_[v]};
+    if (slenderness > notes.slenderest.slenderness) notes.slenderest = level;
+    if (notes.euler == 1 && slenderness > notes.slenderest_disc.slenderness) notes.slenderest_disc = level;
+  }
+
+  // What the vertex adds to the Euler characteristic of the vertices beyond it: itself, the edges to them, and
+  // the triangles with two of them.
+  Index euler_change(Index v) const {
+    const auto beyond = [&](Index w) {
+      return distance_[w] != distance_[v] ? distance_[w] > distance_[v] : w < v;
+    };
+    Index change = 1;
+    const Index first = surface_.vertex_halfedge[v];
+    Index h = first;
+    do {
+      if (beyond(surface_.target(h))) change += beyond(surface_.apex(h)) ? 0 : -1;
+      h = surface_.next_outgoing(h);
+    } while (h != first);
+    return change;
   }
 
   // Where the slices are narrower than the usual smallest feature, what is small is as much smaller.
@@ -98,8 +120,13 @@ class LimbTipSearch {
   // Whether the part holds a limb.
   bool finish(const Part& part) {
     const Notes& notes = part.notes;
-    if (notes.slenderness == 0) return notes.own > 0;
-    std::optional<FoundLimb> found = measure(part.top, notes);
+    if (notes.slenderest.slenderness == 0) return notes.own > 0;
+    std::optional<FoundLimb> found = measure(part.top, notes.slenderest.distance, notes.own);
+    // The bow of a handle may hold a limb that ends before the handle begins; its bend is none, and blunt.
+    if (!found && notes.slenderest_disc.slenderness > 0) {
+      found = measure(part.top, notes.slenderest_disc.distance, notes.own);
+      if (found && is_blunt(found->tip.measures.depth_over_mouth)) found.reset();
+    }
     if (!found) return notes.own > 0;
     if (!is_limb(found->tip.measures, options_)) {
       if (!is_ear(found->tip.measures, options_)) return notes.own > 0;
@@ -110,8 +137,7 @@ class LimbTipSearch {
   }
 
   // The part round a top beyond a level as a limb; nothing if it has no slices, or is the bow of a handle.
-  std::optional<FoundLimb> measure(Index top, const Notes& notes) {
-    const double level = notes.level;
+  std::optional<FoundLimb> measure(Index top, double level, double own) {
     FoundLimb found;
     found.part = beyond(top, level);
     const std::vector<Index>& part = found.part;
@@ -143,7 +169,7 @@ class LimbTipSearch {
     const std::vector<Index> carrier = surface_beside(round, found.root, 2 * m.half_width);
     m.carrier_half_chord = median_half_chord(carrier);
     m.msp_ratio = std::max(1.0, mean_perimeter(carrier) * sliced / perimeter);
-    if (!set_end(tip, notes.own)) return std::nullopt;
+    if (!set_end(tip, own)) return std::nullopt;
     return found;
   }
 
