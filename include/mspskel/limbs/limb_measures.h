@@ -73,9 +73,11 @@ inline bool is_digit(const LimbMeasures& m, const LimbOptions& o) {
   return m.slenderness >= kFinger * o.slenderness && m.depth >= 1.6 * o.smallest;
 }
 
-// An ear or a horn: a bump rather than a limb, but much smaller than what carries it. Only in a shape that has
-// limbs or whose body ends: a ridge of a plain body may be as much.
+// An ear or a horn: a bump rather than a limb, but much smaller than what carries it, and no wider unless it is
+// sharp. Only in a shape that has limbs or whose body ends: a ridge of a plain body may be as much.
 inline bool is_ear(const LimbMeasures& m, const LimbOptions& o) {
+  constexpr double kAsWide = 1.05;  // within the accuracy of the two widths
+  if (is_blunt(m.depth_over_mouth) && m.half_width > kAsWide * m.carrier_half_chord) return false;
   return m.slenderness >= 0.3 * o.slenderness && m.slenderness * m.msp_ratio >= 0.65 * o.slenderness &&
          m.depth >= 0.75 * m.half_width && !is_corner(m);
 }
