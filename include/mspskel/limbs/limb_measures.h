@@ -8,6 +8,10 @@ namespace mspskel {
 namespace detail {
 // So much of a limb's end, in half widths, has its mean in the middle of it, on flat ends as well.
 inline constexpr double kEnd = 0.75;
+
+// Slenderness times the number of vertices of a part is 7 (depth / edge length)²; below 1.5 edges the
+// triangles decide what is slender.
+inline constexpr double kLeastEvidence = 16;
 }  // namespace detail
 
 struct LimbOptions {

@@ -19,10 +19,6 @@ namespace detail {
 // The least depth of a limb from the middle of the shape, in smallest features.
 inline constexpr double kLeastTipDepth = 1.5;
 
-// Slenderness times the number of vertices of a limb is 7 (depth / edge length)²; below 1.5 edges the
-// triangles decide what is slender.
-inline constexpr double kLeastEvidence = 16;
-
 struct FoundLimb {
   LimbTip tip;
   std::vector<Index> part;         // its surface

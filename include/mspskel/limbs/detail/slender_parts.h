@@ -36,7 +36,8 @@ inline bool is_bump(const PartLevel& level, double carrier_rim, const LimbOption
 struct SlenderPart {
   Index top;             // where it reaches farthest
   PartLevel slenderest;  // for its area
-  PartLevel narrowest;   // for its mouth; of no depth where it never is less than half of its component
+  PartLevel narrowest;   // for its mouth; of no depth where it never is less than half of its component, or
+                         // of enough vertices to tell
 };
 
 // How long the contour of a level is in one triangle: no more than linear in the level between the corners,
@@ -127,6 +128,7 @@ std::vector<SlenderPart> slender_parts(const SurfaceSnapshot& surface, const std
                                        std::vector<Index> vertices, LeastDepth least_depth) {
   struct Notes {
     double area = 0;
+    Index vertices = 0;
     ContourLength mouth;
     PartLevel slenderest, narrowest;
   };
@@ -143,11 +145,13 @@ std::vector<SlenderPart> slender_parts(const SurfaceSnapshot& surface, const std
       [&](typename Parts::Part& high, typename Parts::Part& low, Index) {
         finish(low);
         high.notes.area += low.notes.area;
+        high.notes.vertices += low.notes.vertices;
         high.notes.mouth += low.notes.mouth;
       },
       [&](typename Parts::Part& part, Index v) {
         Notes& notes = part.notes;
         notes.area += area_first_touched(surface, distance, v);
+        ++notes.vertices;
         notes.mouth += contour_change_at(surface, distance, v);
         const PartLevel level{distance[part.top] - distance[v], notes.area, notes.mouth.at(distance[v])};
         // Within rounding a line, which encloses nothing.
@@ -155,6 +159,8 @@ std::vector<SlenderPart> slender_parts(const SurfaceSnapshot& surface, const std
         if (notes.slenderest.depth == 0 || level.slenderness() > notes.slenderest.slenderness())
           notes.slenderest = level;
         if (!(level.mouth > 0) || level.area > half_area[surface.component[v]]) return;
+        // A mouth is cut within triangles, so that a depth of one edge suffices.
+        if (level.slenderness() * notes.vertices < 0.5 * kLeastEvidence) return;
         if (notes.narrowest.depth == 0 || level.depth_over_mouth() > notes.narrowest.depth_over_mouth())
           notes.narrowest = level;
       });
