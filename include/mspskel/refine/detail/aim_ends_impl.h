@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mspskel/arcs/detail/own_step.h"
 #include "mspskel/arcs/detail/polyline_ends.h"
 #include "mspskel/arcs/extend_ends.h"
 #include "mspskel/base/linkage.h"
@@ -81,13 +82,14 @@ MSPSKEL_INLINE Index aim_ends(ArcGraph& graph, const SurfaceSnapshot& surface,
     std::vector<Vector3> points = detail::leaf_points(graph, leaf);
     const double half_width = detail::section_size(
         solid, points.back(), points.back() - detail::point_before_end(points, 3 * step))[0];
+    const double own_step = detail::step_for_width(half_width, step);
     // The corners of a flat end are about a half width off, whichever way the arc points.
     const Index v = detail::most_uncovered(surface, balls, leaves.vertices[i], leaf.arc, leaf.tip,
-                                           std::max(step, 0.75 * half_width));
+                                           std::max(own_step, 0.75 * half_width));
     if (v == kNone) continue;
     const bool within = std::all_of(points.begin(), points.end(),
                                     [&](const Vector3& x) { return (x - hub.centre).norm() < hub.radius; });
-    if (!detail::aim_arc(points, surface.position[v], within, solid, step)) continue;
+    if (!detail::aim_arc(points, surface.position[v], within, solid, own_step)) continue;
     detail::set_leaf_points(graph, leaf, std::move(points));
     ++aimed;
   }
@@ -105,7 +107,8 @@ MSPSKEL_INLINE std::vector<Index> aim_at_tips(ArcGraph& graph, const BoundingVol
     std::vector<Vector3> points = detail::leaf_points(graph, leaf);
     const double off = (points.back() - tips[t].target).norm();
     if (slack > 0 && off <= slack * tips[t].measures.half_width) continue;
-    if (!detail::lead_to_target(points, tips[t].target, tips[t].target != tips[t].position, solid, step))
+    if (!detail::lead_to_target(points, tips[t].target, tips[t].target != tips[t].position, solid,
+                                detail::step_for_width(tips[t].measures.half_width, step)))
       continue;
     detail::set_leaf_points(graph, leaf, std::move(points));
     aimed.push_back(leaf.tip);
