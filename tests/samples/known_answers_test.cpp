@@ -100,14 +100,48 @@ TEST_CASE("a skeleton has the ends and loops and the course of the one that the 
   }
 }
 
+TEST_CASE("rails end beyond the last rung, and neither corners of plates nor rough faces are limbs") {
+  constexpr Section kSquare = Section::kSquare, kRound = Section::kRound;
+  struct Rough {
+    const char* name;
+    Index count;
+    Section section;
+    double ratio, jitter;
+    bool sparse;
+  };
+  for (const Rough& c : std::vector<Rough>{{"ladder", 6, kSquare, 0, 0, true},
+                                           {"ladder", 6, kRound, 0, 0, true},
+                                           {"table", 3, kSquare, 1, 0, false},
+                                           {"table", 3, kSquare, 0.7, 0, false},
+                                           {"table", 5, kSquare, 1, 0, true},
+                                           {"table", 5, kSquare, 0.7, 0, false},
+                                           {"hammer", kNone, kSquare, 0.2, 0.2, false}}) {
+    SampleOptions options;
+    options.count = c.count;
+    options.section = c.section;
+    options.ratio = c.ratio;
+    options.jitter = c.jitter;
+    options.sparse = c.sparse;
+    INFO(c.name << " " << c.count << (c.section == kRound ? " round" : " square") << " " << c.ratio);
+    const CurveSkeleton made = extract_skeleton(to_mesh(make_sample(c.name, options))).skeleton;
+    CHECK(nodes_of_degree(made, is_leaf).size() ==
+          nodes_of_degree(sample_truth(c.name, options), is_leaf).size());
+  }
+}
+
 TEST_CASE("each tip of a tree whose widths differ by a factor of 20 gets a leaf, and nothing else does") {
-  const SampleOptions options;
-  const CurveSkeleton truth = sample_truth("tree", options);
-  const CurveSkeleton made = extract_skeleton(to_mesh(make_sample("tree", options))).skeleton;
-  const std::vector<Index> tips = nodes_of_degree(truth, is_leaf), leaves = nodes_of_degree(made, is_leaf);
-  CHECK(leaves.size() == tips.size());
-  for (const Index tip : tips)
-    CHECK(std::any_of(leaves.begin(), leaves.end(), [&](Index leaf) {
-      return (truth.nodes[tip].position - made.nodes[leaf].position).norm() <= truth.nodes[tip].radius;
-    }));
+  for (const std::uint64_t seed : {1, 20}) {
+    SampleOptions options;
+    options.seed = seed;
+    if (seed == 20) options.count = 20;
+    INFO("seed " << seed);
+    const CurveSkeleton truth = sample_truth("tree", options);
+    const CurveSkeleton made = extract_skeleton(to_mesh(make_sample("tree", options))).skeleton;
+    const std::vector<Index> tips = nodes_of_degree(truth, is_leaf), leaves = nodes_of_degree(made, is_leaf);
+    CHECK(leaves.size() == tips.size());
+    for (const Index tip : tips)
+      CHECK(std::any_of(leaves.begin(), leaves.end(), [&](Index leaf) {
+        return (truth.nodes[tip].position - made.nodes[leaf].position).norm() <= truth.nodes[tip].radius;
+      }));
+  }
 }
