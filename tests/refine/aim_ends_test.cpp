@@ -2,6 +2,7 @@
 #include "mspskel/refine/aim_ends.h"
 
 #include <catch2/catch.hpp>
+#include <limits>
 
 #include "mspskel/limbs/limb_tips.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
@@ -9,9 +10,30 @@
 #include "refine/tripod_arcs.h"
 #include "support/arc_graphs.h"
 #include "support/solids.h"
+#include "support/soups.h"
 
 using namespace mspskel;
 using namespace mspskel::test;
+
+namespace {
+
+// The vertex nearest to a place, as a tip to which an arc is to lead, with the vertices within `reach` of it.
+LimbTip tip_at(const Solid& solid, const Vector3& place, double half_width, double reach) {
+  LimbTip tip;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (Index v = 0; v < solid.surface.vertex_count(); ++v) {
+    const double distance = (solid.model(solid.surface.position[v]) - place).norm();
+    if (distance <= reach) tip.cap.push_back(v);
+    if (distance >= nearest) continue;
+    nearest = distance;
+    tip.vertex = v;
+  }
+  tip.position = tip.target = solid.surface.position[tip.vertex];
+  tip.measures.half_width = solid.at({half_width, 0, 0}).x() - solid.at({0, 0, 0}).x();
+  return tip;
+}
+
+}  // namespace
 
 TEST_CASE("Short leaf arcs are aimed at the end of their limb, and ends that reach it stay") {
   const Solid solid(to_mesh(skin_graph(tripod(), 1200)));
@@ -29,7 +51,8 @@ TEST_CASE("A leaf arc that stands for a tip is led to its target") {
   const Solid solid(to_mesh(skin_graph(tripod(), 1200)));
   ArcGraph graph = tripod_arcs(solid, 0.5, nullptr);
   const std::vector<LimbTip> tips = tripod_tips(solid);
-  CHECK(aim_at_tips(graph, solid.hierarchy, tips, 0.01).size() == 3);
+  detail::InnerGraph inner(solid.surface, solid.hierarchy);
+  CHECK(aim_at_tips(graph, inner, tips, 0.01).size() == 3);
   const auto at = graph.incidence();
   for (const LimbTip& tip : tips) {
     double nearest = std::numeric_limits<double>::infinity();
@@ -38,5 +61,43 @@ TEST_CASE("A leaf arc that stands for a tip is led to its target") {
         nearest = std::min(nearest, (graph.hub_position[h] - tip.target).norm());
     CHECK(nearest < 0.02);
   }
+  CHECK(crossings(graph, solid.hierarchy) == 0);
+}
+
+TEST_CASE("An arc is led into a thin limb by steps of the limb's width") {
+  const Solid solid(to_mesh(box({-0.01, -0.01, -4}, {0.01, 0.01, 4})));
+  ArcGraph graph;
+  graph.add_hub(solid.at({0, 0, 0}));
+  for (const Vector3& end : {Vector3(0, 0, 3.945), Vector3(0, 0, -3.9), Vector3(0.005, 0, 0)}) {
+    graph.add_hub(solid.at(end));
+    line(graph, 0, graph.hub_count() - 1);
+  }
+  map_to_nearest(graph, solid.surface.position);
+  detail::InnerGraph inner(solid.surface, solid.hierarchy);
+  LimbTip tip = tip_at(solid, {0, 0, 4}, 0.01, 0.1);
+  tip.position = tip.target = solid.at({0, 0, 4});
+  // The step of thick limbs is longer than the way that is left.
+  CHECK(aim_at_tips(graph, inner, {tip}, 0.008).size() == 1);
+  CHECK(solid.model(graph.hub_position[1]).z() > 3.975);
+  CHECK(crossings(graph, solid.hierarchy) == 0);
+}
+
+TEST_CASE("An arc is led round a bend to a tip out of sight") {
+  BallGraph hook = tripod();
+  hook.nodes.push_back({{1.6, 0, 3}, 0.3});
+  hook.nodes.push_back({{1.6, 0, 1.2}, 0.3});
+  hook.edges.push_back({1, 4});
+  hook.edges.push_back({4, 5});
+  const Solid solid(to_mesh(skin_graph(hook, 1600)));
+  ArcGraph graph = tripod_arcs(solid, 0.5);
+  const LimbTip tip = tip_at(solid, {1.6, 0, 0.9}, 0.3, 1);
+  // Its end has the map's vertices round the tip, as the collapse leaves it.
+  for (const Index v : tip.cap) {
+    graph.arc_of_vertex[v] = 0;
+    graph.hub_of_vertex[v] = kNone;
+  }
+  detail::InnerGraph inner(solid.surface, solid.hierarchy);
+  CHECK(aim_at_tips(graph, inner, {tip}, 0.01) == std::vector<Index>{1});
+  CHECK((solid.model(graph.hub_position[1]) - Vector3(1.6, 0, 1.2)).norm() < 0.3);
   CHECK(crossings(graph, solid.hierarchy) == 0);
 }

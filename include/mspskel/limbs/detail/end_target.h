@@ -6,10 +6,15 @@
 namespace mspskel {
 namespace detail {
 
+// How near the surface an arc may end, in half widths of the limb.
+inline constexpr double kLeastClearance = 0.05;
+
+// Whether the target lies in the solid, not on its surface.
+inline bool ends_inside(const LimbTip& tip) { return tip.target != tip.position; }
+
 // Where few vertices make the end, their mean lies on the surface but for rounding, and outside in a bent
 // one: then the tip itself is the target.
 inline void keep_target_well_inside(LimbTip& tip, const BoundingVolumeHierarchy& solid) {
-  constexpr double kLeastClearance = 0.05;  // half widths
   if (!solid.inside(tip.target) || solid.distance(tip.target) < kLeastClearance * tip.measures.half_width)
     tip.target = tip.position;
 }

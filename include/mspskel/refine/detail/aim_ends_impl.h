@@ -4,6 +4,7 @@
 #include "mspskel/arcs/detail/polyline_ends.h"
 #include "mspskel/arcs/extend_ends.h"
 #include "mspskel/base/linkage.h"
+#include "mspskel/limbs/detail/end_target.h"
 #include "mspskel/refine/detail/arc_leaves.h"
 #include "mspskel/refine/detail/arc_sections.h"
 
@@ -46,25 +47,51 @@ inline bool aim_arc(std::vector<Vector3>& points, const Vector3& target, bool wi
   return points.size() > before;
 }
 
-// Cuts the polyline off behind its last point that sees the target, no farther than the one nearest to it,
-// and leads it on: to a target inside the solid, or up to where the ball nearly touches one on the surface.
-inline bool lead_to_target(std::vector<Vector3>& points, const Vector3& target, bool target_inside,
-                           const BoundingVolumeHierarchy& solid, double step) {
-  const double share = target_inside ? 1.0 : 0.98;  // the target's own faces are no obstacle
+// The place of the last point that sees the target, no farther along than the one nearest to it; kNoLeaf if
+// none does.
+inline std::size_t last_in_sight(const std::vector<Vector3>& points, const LimbTip& tip,
+                                 const BoundingVolumeHierarchy& solid) {
+  const double share = ends_inside(tip) ? 1.0 : 0.98;  // the target's own faces are no obstacle
   std::size_t nearest = 0;
   for (std::size_t i = 1; i < points.size(); ++i)
-    if ((points[i] - target).squaredNorm() <= (points[nearest] - target).squaredNorm()) nearest = i;
-  std::size_t count = nearest + 1;
-  while (count > 0 &&
-         solid.segment_crosses(points[count - 1], points[count - 1] + share * (target - points[count - 1])))
-    --count;
-  if (count == 0) return false;
+    if ((points[i] - tip.target).squaredNorm() <= (points[nearest] - tip.target).squaredNorm()) nearest = i;
+  for (std::size_t i = nearest + 1; i-- > 0;)
+    if (!solid.segment_crosses(points[i], points[i] + share * (tip.target - points[i]))) return i;
+  return kNoLeaf;
+}
+
+// Leads a leaf arc to the target of its tip: straight from its last point that sees it, else along the middle
+// of the solid from the joint. Up to a target inside the solid, or to where the ball nearly touches one on the
+// surface.
+inline bool lead_to_target(std::vector<Vector3>& points, const LimbTip& tip, InnerGraph& inner, double step) {
+  constexpr Index kMostOfWay = 2000;  // vertices; a way that comes by more is none into a limb
+  constexpr double kNear = 2;         // half widths; what ends so near its target needs no other way
+  const BoundingVolumeHierarchy& solid = inner.solid();
   const std::vector<Vector3> before = points;
-  points.resize(count);
-  if (target_inside)
-    points.push_back(target);
+  const std::size_t seeing = last_in_sight(points, tip, solid);
+  if (seeing != kNoLeaf) {
+    points.resize(seeing + 1);
+  } else {
+    if ((points.back() - tip.target).norm() <= kNear * tip.measures.half_width) return false;
+    inner.prepare();
+    std::vector<Vector3> between;
+    if (!inner.usable(tip.vertex) || !solid.inside(inner.point(tip.vertex)) ||
+        !inner.path(inner.point(tip.vertex), points.front(), between, kMostOfWay))
+      return false;
+    points.resize(1);
+    points.insert(points.end(), between.rbegin(), between.rend());
+    points.push_back(inner.point(tip.vertex));
+    const std::size_t sight = last_in_sight(points, tip, solid);
+    if (sight == kNoLeaf) {
+      points = before;
+      return false;
+    }
+    points.resize(sight + 1);
+  }
+  if (ends_inside(tip))
+    points.push_back(tip.target);
   else
-    lead_towards(points, target, solid, step);
+    lead_towards(points, tip.target, solid, step);
   if (points.size() < 2) points = before;
   return points != before;
 }
@@ -80,23 +107,23 @@ MSPSKEL_INLINE Index aim_ends(ArcGraph& graph, const SurfaceSnapshot& surface,
     const detail::LeafArc& leaf = leaves.leaf[i];
     const detail::Ball& hub = balls.hub[leaf.joint];
     std::vector<Vector3> points = detail::leaf_points(graph, leaf);
+    const double own = detail::own_step(graph.arcs[leaf.arc], solid, step);
     const double half_width = detail::section_size(
-        solid, points.back(), points.back() - detail::point_before_end(points, 3 * step))[0];
-    const double own_step = detail::step_for_width(half_width, step);
+        solid, points.back(), points.back() - detail::point_before_end(points, 3 * own))[0];
     // The corners of a flat end are about a half width off, whichever way the arc points.
     const Index v = detail::most_uncovered(surface, balls, leaves.vertices[i], leaf.arc, leaf.tip,
-                                           std::max(own_step, 0.75 * half_width));
+                                           std::max(own, 0.75 * half_width));
     if (v == kNone) continue;
     const bool within = std::all_of(points.begin(), points.end(),
                                     [&](const Vector3& x) { return (x - hub.centre).norm() < hub.radius; });
-    if (!detail::aim_arc(points, surface.position[v], within, solid, own_step)) continue;
+    if (!detail::aim_arc(points, surface.position[v], within, solid, own)) continue;
     detail::set_leaf_points(graph, leaf, std::move(points));
     ++aimed;
   }
   return aimed;
 }
 
-MSPSKEL_INLINE std::vector<Index> aim_at_tips(ArcGraph& graph, const BoundingVolumeHierarchy& solid,
+MSPSKEL_INLINE std::vector<Index> aim_at_tips(ArcGraph& graph, detail::InnerGraph& inner,
                                               const std::vector<LimbTip>& tips, double step, double slack) {
   const detail::ArcLeaves leaves(graph, graph.incidence());
   const std::vector<std::size_t> leaf_of_tip = detail::leaves_of_tips(graph, leaves, tips);
@@ -105,11 +132,9 @@ MSPSKEL_INLINE std::vector<Index> aim_at_tips(ArcGraph& graph, const BoundingVol
     if (leaf_of_tip[t] == detail::kNoLeaf || tips[t].kind == TipKind::kWayEnd) continue;
     const detail::LeafArc& leaf = leaves.leaf[leaf_of_tip[t]];
     std::vector<Vector3> points = detail::leaf_points(graph, leaf);
-    const double off = (points.back() - tips[t].target).norm();
-    if (slack > 0 && off <= slack * tips[t].measures.half_width) continue;
-    if (!detail::lead_to_target(points, tips[t].target, tips[t].target != tips[t].position, solid,
-                                detail::step_for_width(tips[t].measures.half_width, step)))
-      continue;
+    const double half_width = tips[t].measures.half_width;
+    if (slack > 0 && (points.back() - tips[t].target).norm() <= slack * half_width) continue;
+    if (!detail::lead_to_target(points, tips[t], inner, detail::step_for_width(half_width, step))) continue;
     detail::set_leaf_points(graph, leaf, std::move(points));
     aimed.push_back(leaf.tip);
   }

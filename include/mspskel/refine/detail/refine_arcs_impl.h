@@ -95,13 +95,13 @@ class ArcRefinement {
   }
   void aim() {
     aim_ends(graph_, surface_, solid_, options_.centering.step, execution_);
-    aim_at_tips(graph_, solid_, tips_, options_.centering.step);
+    aim_at_tips(graph_, inner_, tips_, options_.centering.step);
     keep_type("aiming of ends");
   }
   // In fins and wide ends centring draws a leaf back into the body, time after time.
   std::vector<Index> aim_strays() {
     constexpr double kSlack = 1.0;
-    std::vector<Index> strays = aim_at_tips(graph_, solid_, tips_, options_.centering.step, kSlack);
+    std::vector<Index> strays = aim_at_tips(graph_, inner_, tips_, options_.centering.step, kSlack);
     keep_type("aiming of strays");
     return strays;
   }
