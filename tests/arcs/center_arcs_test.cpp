@@ -100,6 +100,45 @@ TEST_CASE("Without rounds arcs are resampled and stay where they are") {
   for (const Vector3& p : points) CHECK(off_axis(solid.surface.frame.to_model(p)) == Approx(0.5));
 }
 
+TEST_CASE("The arc of a thin limb becomes straight where it runs through the thick bar that carries it") {
+  SampleOptions made;
+  made.section = Section::kRound;
+  made.ratio = 0.4;
+  const CurveSkeleton truth = sample_truth("tee", made);
+  const Solid solid(to_mesh(make_sample("tee", made)));
+  std::vector<Index> degree(truth.nodes.size(), 0);
+  for (const auto& [i, j] : truth.edges) ++degree[i], ++degree[j];
+  Index joint = 0, tip = kNone;
+  for (Index i = 0; i < static_cast<Index>(truth.nodes.size()); ++i)
+    if (degree[i] == 3) joint = i;
+  ArcGraph graph;
+  for (const SkeletonNode& node : truth.nodes) graph.add_hub(solid.surface.frame.to_normalised(node.position));
+  Vector3 along_bar = Vector3::Zero();
+  for (Index i = 0; i < static_cast<Index>(truth.nodes.size()); ++i) {
+    if (i == joint) continue;
+    if (tip == kNone || truth.nodes[i].radius < truth.nodes[tip].radius) tip = i;
+  }
+  for (Index i = 0; i < static_cast<Index>(truth.nodes.size()); ++i)
+    if (i != joint && i != tip) {
+      add_arc(graph, joint, i, {});
+      along_bar = (graph.hub_position[i] - graph.hub_position[joint]).normalized();
+    }
+  const Vector3 from = graph.hub_position[joint], way = graph.hub_position[tip] - from;
+  const double half_width = truth.nodes[tip].radius / solid.scale();
+  std::vector<Vector3> wavering;
+  for (int k = 1; k < 60; ++k)
+    wavering.push_back(from + k / 60.0 * way + 0.5 * half_width * std::sin(0.2 * k) * along_bar);
+  add_arc(graph, joint, tip, wavering);
+  CenteringOptions options;
+  options.rounds = 20;
+  center_arcs(graph, solid.hierarchy, options);
+  const Vector3 start = graph.hub_position[joint], axis = (graph.hub_position[tip] - start).normalized();
+  double farthest = 0;
+  for (const Vector3& p : graph.arcs[2].points)
+    farthest = std::max(farthest, (p - start).cross(axis).norm());
+  CHECK(farthest < 0.15 * half_width);
+}
+
 TEST_CASE("The centre line of a torus keeps its loop") {
   const Solid solid(torus(1, 0.3, 40, 16));
   ArcGraph graph;

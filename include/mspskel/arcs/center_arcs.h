@@ -56,12 +56,14 @@ VisibleSection visible_section(const BoundingVolumeHierarchy& solid, const Vecto
                                int rays);
 
 // Resamples every arc at options.step, those whose half width is below 0.006 of the extent at steps as much
-// shorter as they are thinner, and centres it: minimises Σ w|x − c|² + μ Σ|x − mean of neighbours|² over all
-// points, with c the section's centre, w = roundness² / (1 + (|c − x| / 0.7 R)⁴) and μ = smoothness ·
-// (distance to the surface / own step)² · (0.008 / options.step)²; leaf ends stay in their section, or where
-// they are if `held` names their hubs; joints are nearly free. Steps that would cut a corner through the
-// surface keep the corner between them. A point moves only as far as its edges stay off the surface, so what
-// is inside stays inside, and as far as no edge sweeps over a handle, so cycles keep their classes.
+// shorter as they are thinner, and centres it in sections across its direction, which is taken over a stretch
+// as long as the solid is thick, less where the arc bends: minimises Σ w|x − c|² + μ Σ|x − mean of
+// neighbours|² over all points, with c the section's centre, w = roundness² / (1 + (|c − x| / 0.7 R)⁴) and
+// μ = smoothness · (distance to the surface / own step)² · (0.008 / options.step)²; leaf ends stay in their
+// section, or where they are if `held` names their hubs; joints are nearly free. Steps that would cut a corner
+// through the surface keep the corner between them. A point moves only as far as its edges stay off the
+// surface, so what is inside stays inside, and as far as no edge sweeps over a handle, so cycles keep their
+// classes.
 // A round that would make the arcs half as long again as they began, and ten steps, is the end: where there
 // is hardly any thickness, neighbouring points do not hold each other, and arcs grow with every round. Cost:
 // O(points · rays · log faces) a round. Throws UsageError, Cancelled.

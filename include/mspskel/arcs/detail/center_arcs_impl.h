@@ -22,14 +22,35 @@ inline Vector3 direction_to_surface(const BoundingVolumeHierarchy& solid, const 
   return u.norm() < 1e-12 ? tangent.unitOrthogonal() : u.normalized();
 }
 
-// Unit tangents of inner points and leaf ends from a smoothed copy of the chains; zero elsewhere. Without the
-// smoothing the sections of a zigzag tilt with it, and centring makes it worse.
-inline std::vector<Vector3> smooth_tangents(const ArcPoints& points, int smoothing) {
+// How many points of an evenly spaced line on each side of a point its direction is taken over: as far as the
+// solid is thick, as long as the line hardly bends there. A section stands across the part that the line runs
+// through: in a thick one, that of a waver would tilt with it, and centring make it worse.
+inline std::size_t reach_of_direction(const std::vector<Vector3>& line, double spacing, std::size_t i,
+                                      double thickness) {
+  constexpr double kStraight = 0.9;  // least distance of the ends, in lengths of the way by the point
+  if (!(spacing > 0)) return 1;
+  auto reach = static_cast<std::size_t>(std::min(thickness / spacing, static_cast<double>(line.size())));
+  for (; reach > 1; reach = 3 * reach / 4) {
+    const Vector3 &from = line[i - std::min(i, reach)], &to = line[std::min(i + reach, line.size() - 1)];
+    if ((to - from).norm() >= kStraight * ((line[i] - from).norm() + (to - line[i]).norm())) break;
+  }
+  return std::max<std::size_t>(reach, 1);
+}
+
+// Unit tangents of inner points and leaf ends from a smoothed copy of the chains; zero elsewhere. `thickness`:
+// per point the distance to the surface.
+inline std::vector<Vector3> smooth_tangents(const ArcPoints& points, const std::vector<double>& thickness,
+                                            int smoothing) {
   std::vector<Vector3> tangent(points.x.size(), Vector3::Zero());
   std::vector<Vector3> line, copy;
   for (const auto& chain : points.chains) {
     line.clear();
-    for (const Index i : chain) line.push_back(points.x[i]);
+    double length = 0;
+    for (const Index i : chain) {
+      if (!line.empty()) length += (points.x[i] - line.back()).norm();
+      line.push_back(points.x[i]);
+    }
+    const double spacing = length / static_cast<double>(std::max<std::size_t>(line.size(), 2) - 1);
     for (int round = 0; round < smoothing; ++round) {
       copy = line;
       for (std::size_t i = 1; i + 1 < line.size(); ++i)
@@ -37,7 +58,8 @@ inline std::vector<Vector3> smooth_tangents(const ArcPoints& points, int smoothi
     }
     for (std::size_t i = 0; i < chain.size(); ++i) {
       if (points.kind[chain[i]] == ArcPoints::Kind::kJoint) continue;
-      const Vector3 along = line[std::min(i + 1, line.size() - 1)] - line[i > 0 ? i - 1 : 0];
+      const std::size_t reach = reach_of_direction(line, spacing, i, thickness[chain[i]]);
+      const Vector3 along = line[std::min(i + reach, line.size() - 1)] - line[i - std::min(i, reach)];
       if (along.norm() > 0) tangent[chain[i]] = along.normalized();
     }
   }
@@ -225,7 +247,13 @@ MSPSKEL_INLINE void center_arcs(ArcGraph& graph, const BoundingVolumeHierarchy& 
     std::vector<double> share(points.x.size(), 1.0);  // of the step
     for (std::size_t a = 0; a < step.size(); ++a)
       for (const Index i : points.chains[a]) share[i] = std::min(share[i], step[a] / options.step);
-    const auto tangent = detail::smooth_tangents(points, options.tangent_smoothing);
+    std::vector<double> thickness(points.x.size(), 0.0);
+    parallel_for(
+        points.count(), "arcs", execution, [] { return 0; },
+        [&](Index i, int) {
+          if (points.kind[i] != detail::ArcPoints::Kind::kDead) thickness[i] = solid.distance(points.x[i]);
+        });
+    const auto tangent = detail::smooth_tangents(points, thickness, options.tangent_smoothing);
     const auto first_ray = detail::first_rays(points, tangent, solid);
     const auto left_out = detail::left_out(points, round);
     std::vector<detail::Pull> pulls(points.x.size());
