@@ -83,8 +83,8 @@ std::vector<std::array<Influence, 4>> influences_of(const Rig& rig, const std::v
   return influences;
 }
 
-void lay_joints(const CurveSkeleton& skeleton, const SkeletonTree& tree, Index wanted, Rig& rig) {
-  const std::vector<char> marked = detail::choose_joints(skeleton, tree, wanted);
+void lay_joints(const CurveSkeleton& skeleton, const SkeletonTree& tree, const std::vector<char>& marked,
+                Rig& rig) {
   std::vector<Index> joint(skeleton.nodes.size(), kNone);
   for (const Index n : tree.order) {
     if (!marked[n]) continue;
@@ -92,6 +92,51 @@ void lay_joints(const CurveSkeleton& skeleton, const SkeletonTree& tree, Index w
     joint[n] = static_cast<Index>(rig.joints.size());
     rig.joints.push_back({"", above == kNone ? kNone : joint[above], skeleton.nodes[n].position, n, kNone});
   }
+}
+
+void weigh(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton, const SkeletonTree& tree,
+           double blend, Rig& rig) {
+  const std::vector<BoneShare> shares = detail::bone_shares(surface, skeleton, tree, rig, blend);
+  rig.influences = influences_of(rig, shares, detail::bound_slopes(surface, rig, shares));
+}
+
+// Per joint the first of the limb that it is on: what hangs on that one is a chain. kNone: on no limb.
+std::vector<Index> limbs_of(const Rig& rig) {
+  const Index count = static_cast<Index>(rig.joints.size());
+  std::vector<Index> children(count, 0), first(count, kNone);
+  for (Index j = 1; j < count; ++j) ++children[rig.joints[j].parent];
+  for (Index end = 1; end < count; ++end) {
+    if (children[end] != 0) continue;
+    Index top = end;
+    while (rig.joints[top].parent != 0 && children[rig.joints[top].parent] == 1) top = rig.joints[top].parent;
+    for (Index j = end; j != rig.joints[top].parent; j = rig.joints[j].parent) first[j] = top;
+  }
+  return first;
+}
+
+// A limb that nothing follows more than what it hangs on turns farther out, half way to its end; where it has
+// no joint left to do so it is none. Whether there was such a limb.
+bool mend_idle_limbs(const SkeletonTree& tree, const Rig& rig, std::vector<char>& marked) {
+  const std::vector<Index> first = limbs_of(rig);
+  std::vector<double> followed(rig.joints.size(), 0.0);
+  for (const auto& influences : rig.influences) {
+    // A vertex follows joints of one way from the root, so of one limb.
+    double sum = 0;
+    Index limb = kNone;
+    for (const Influence& influence : influences)
+      if (influence.weight > 0 && first[influence.joint] != kNone) {
+        limb = first[influence.joint];
+        sum += influence.weight;
+      }
+    if (limb != kNone) followed[limb] = std::max(followed[limb], sum);
+  }
+  bool changed = false;
+  for (std::size_t j = 1; j < first.size(); ++j) {
+    if (first[j] != static_cast<Index>(j) || followed[j] >= 0.5) continue;
+    detail::turn_farther_out(tree, rig.joints[j].node, marked);
+    changed = true;
+  }
+  return changed;
 }
 
 }  // namespace
@@ -105,12 +150,15 @@ Rig make_rig(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton, cons
   validate(options);
   check_fit(surface, skeleton);
   const SkeletonTree tree = detail::make_skeleton_tree(skeleton);
+  std::vector<char> marked = detail::choose_joints(skeleton, tree, options.joints);
   Rig rig;
+  do {
+    rig.joints.clear();
+    lay_joints(skeleton, tree, marked, rig);
+    weigh(surface, skeleton, tree, options.blend, rig);
+  } while (mend_idle_limbs(tree, rig, marked));
   rig.cut = tree.cut;
-  lay_joints(skeleton, tree, options.joints, rig);
   detail::name_joints(rig, surface.frame.scale);
-  const std::vector<BoneShare> shares = detail::bone_shares(surface, skeleton, tree, rig, options.blend);
-  rig.influences = influences_of(rig, shares, detail::bound_slopes(surface, rig, shares));
   return rig;
 }
 

@@ -79,13 +79,16 @@ Index median_node(const CurveSkeleton& skeleton, const SkeletonTree& tree) {
 class JointChoice {
  public:
   JointChoice(const CurveSkeleton& skeleton, const SkeletonTree& tree)
-      : skeleton_(skeleton), tree_(tree), marked_(skeleton.nodes.size(), 0) {}
+      : skeleton_(skeleton), tree_(tree), marked_(skeleton.nodes.size(), 0) {
+    count_children();
+  }
 
   std::vector<char> choose(Index wanted) {
     Index leaves = 0;
     for (const Index n : tree_.order) {
-      leaves += tree_.child_count[n] == 0 ? 1 : 0;
-      if (tree_.child_count[n] != 1 || n == tree_.root()) mark(n);
+      if (left_out_[n]) continue;
+      leaves += children_[n] == 0 ? 1 : 0;
+      if (children_[n] != 1 || n == tree_.root()) mark(n);
     }
     merge_close_junctions();
     mark_limb_roots();
@@ -93,7 +96,7 @@ class JointChoice {
     constexpr Index kMost = 40, kLeast = 13, kLeastPerEnd = 3;
     const Index most = wanted > 0 ? wanted : kMost;
     const Index least = wanted > 0 ? wanted : std::min(kLeast, kLeastPerEnd * leaves);
-    while (count_ > most && drop_shortest()) {
+    while (count_ > most && drop_least()) {
     }
     while (count_ < least && split_longest()) {
     }
@@ -108,6 +111,22 @@ class JointChoice {
   void unmark(Index n) {
     count_ -= marked_[n] ? 1 : 0;
     marked_[n] = 0;
+  }
+  // Branches to which no vertex is mapped, as inside other shells, are left out: nothing would follow them.
+  void count_children() {
+    std::vector<char> followed(marked_.size(), 0);
+    for (const Index n : skeleton_.node_of_vertex)
+      if (n != kNone) followed[n] = 1;
+    for (auto n = tree_.order.rbegin(); n != tree_.order.rend(); ++n)
+      if (followed[*n] && tree_.parent[*n] != kNone) followed[tree_.parent[*n]] = 1;
+    left_out_.assign(marked_.size(), 0);
+    children_.assign(marked_.size(), 0);
+    for (const Index n : tree_.order) {
+      const Index up = tree_.parent[n];
+      if (up == kNone) continue;
+      left_out_[n] = left_out_[up] || (tree_.child_count[up] > 1 && !followed[n]) ? 1 : 0;
+      children_[up] += left_out_[n] ? 0 : 1;
+    }
   }
   const SkeletonNode& node(Index n) const { return skeleton_.nodes[n]; }
   double half_width(Index n) const { return detail::half_width(node(n)); }
@@ -137,19 +156,21 @@ class JointChoice {
   // A junction well within the ball of the one above is the same place.
   void merge_close_junctions() {
     for (const Index n : joints())
-      if (tree_.child_count[n] > 1 && bone_length(n) < 0.5 * node(marked_above(tree_, marked_, n)).radius)
+      if (children_[n] > 1 && bone_length(n) < 0.5 * node(marked_above(tree_, marked_, n)).radius)
         unmark(n);
   }
-  // What leaves a junction turns where it leaves its ball.
+  // What leaves a junction turns where it leaves its ball, and a limb that hardly does so at half its length:
+  // each has a joint that bends it.
   void mark_limb_roots() {
     for (const Index n : joints()) {
       const std::vector<Index> nodes = bone(n);
-      if (tree_.child_count[nodes[0]] < 2) continue;
-      const double whole = bone_length(n), radius = half_width(nodes[0]);
+      if (children_[nodes[0]] < 2) continue;
+      const double whole = bone_length(n), ball = half_width(nodes[0]);
+      const double least = children_[n] == 0 ? std::min(ball, 0.5 * whole) : ball;
       double walked = 0;
-      for (std::size_t i = 1; i + 1 < nodes.size() && walked < radius; ++i) {
+      for (std::size_t i = 1; i + 1 < nodes.size() && walked < least; ++i) {
         walked += tree_.above[nodes[i]];
-        if (walked >= radius && whole - walked > 0.5 * radius) mark(nodes[i]);
+        if (walked >= least && (children_[n] == 0 || whole - walked > 0.5 * ball)) mark(nodes[i]);
       }
     }
   }
@@ -180,16 +201,37 @@ class JointChoice {
       open.push_back(bend);
     }
   }
-  bool drop_shortest() {
-    Index shortest = kNone;
+  // The joints from where a limb leaves the body to its end.
+  std::vector<Index> limb_of(Index end) const {
+    std::vector<Index> joints;
+    for (Index n = end; n != tree_.root() && (n == end || children_[n] == 1); n = tree_.parent[n])
+      if (marked_[n]) joints.push_back(n);
+    std::reverse(joints.begin(), joints.end());
+    return joints;
+  }
+  // What is shortest: a bone, or a limb that has no bends left. While a limb stays it keeps its end and the
+  // joint that bends it as a whole.
+  bool drop_least() {
+    std::vector<Index> dropped;
     double least = kInfinite;
+    const auto consider = [&](double length, std::vector<Index> joints) {
+      if (length >= least) return;
+      least = length;
+      dropped = std::move(joints);
+    };
+    std::vector<char> on_limb(marked_.size(), 0);
+    for (const Index n : joints()) {
+      if (children_[n] != 0) continue;
+      const std::vector<Index> limb = limb_of(n);
+      for (const Index k : limb) on_limb[k] = 1;
+      if (limb.size() <= 2) consider(bone_length(n) + (limb[0] != n ? bone_length(limb[0]) : 0.0), limb);
+      for (std::size_t i = 1; i + 1 < limb.size(); ++i)
+        consider(std::min(bone_length(limb[i]), bone_length(limb[i + 1])), {limb[i]});
+    }
     for (const Index n : joints())
-      if (const double l = bone_length(n); l < least) {
-        least = l;
-        shortest = n;
-      }
-    if (shortest != kNone) unmark(shortest);
-    return shortest != kNone;
+      if (!on_limb[n]) consider(bone_length(n), {n});
+    for (const Index n : dropped) unmark(n);
+    return !dropped.empty();
   }
   // At the node nearest to the middle of the longest bone that has inner nodes.
   bool split_longest() {
@@ -215,7 +257,8 @@ class JointChoice {
 
   const CurveSkeleton& skeleton_;
   const SkeletonTree& tree_;
-  std::vector<char> marked_;
+  std::vector<char> marked_, left_out_;  // per node
+  std::vector<Index> children_;          // per node, without those that are left out
   Index count_ = 0;
 };
 
@@ -241,6 +284,24 @@ SkeletonTree make_skeleton_tree(const CurveSkeleton& skeleton) {
 
 std::vector<char> choose_joints(const CurveSkeleton& skeleton, const SkeletonTree& tree, Index wanted) {
   return JointChoice(skeleton, tree).choose(wanted);
+}
+
+void turn_farther_out(const SkeletonTree& tree, Index node, std::vector<char>& marked) {
+  std::vector<Index> way;  // from the next mark up to below the node
+  for (const Index n : tree.order) {
+    if (n == node || !marked[n] || marked_above(tree, marked, n) != node) continue;
+    for (Index k = n; k != node; k = tree.parent[k]) way.push_back(k);
+  }
+  marked[node] = 0;
+  double whole = 0, walked = 0;
+  for (const Index n : way) whole += tree.above[n];
+  for (std::size_t i = 0; i + 1 < way.size(); ++i) {
+    walked += tree.above[way[i]];
+    if (2 * walked >= whole) {
+      marked[way[i + 1]] = 1;
+      return;
+    }
+  }
 }
 
 Index marked_above(const SkeletonTree& tree, const std::vector<char>& marked, Index node) {

@@ -52,6 +52,40 @@ Shape webbed_limbs() {
   return shape;
 }
 
+// The same with an arc beside it that no vertex is mapped to.
+Shape webbed_limbs_and_empty_arc() {
+  Shape shape = webbed_limbs();
+  CurveSkeleton& skeleton = shape.skeleton;
+  for (int x = 11; x <= 16; ++x) {
+    const Index n = static_cast<Index>(skeleton.nodes.size());
+    skeleton.nodes.push_back({Vector3(x, 1, 3), 1, 0, 0, 0});
+    skeleton.edges.push_back({x == 11 ? 34 : n - 1, n});
+  }
+  return shape;
+}
+
+// A tall block with an arc that hardly leaves it: of the vertices on its side two layers follow its end.
+Shape block_with_flat_limb() {
+  test::VoxelSolid solid;
+  solid.box({0, 0, 0}, {12, 12, 40});
+  Shape shape{make_snapshot(test::to_mesh(test::boundary(solid))), {}, {}};
+  shape.soup = to_polygon_soup(shape.surface);
+  CurveSkeleton& skeleton = shape.skeleton;
+  for (int z = 6; z <= 34; ++z) skeleton.nodes.push_back({Vector3(6, 6, z), 6, 48, 48, 0});
+  for (Index n = 0; n + 1 < 29; ++n) skeleton.edges.push_back({n, n + 1});
+  for (int x = 7; x <= 11; ++x) {
+    const Index n = static_cast<Index>(skeleton.nodes.size());
+    skeleton.nodes.push_back({Vector3(x, 6, 20), 1, 6, 4, 0});
+    skeleton.edges.push_back({x == 7 ? 14 : n - 1, n});
+  }
+  for (const Vector3& p : shape.soup.points) {
+    const bool on_limb = p.x() > 11.5 && std::abs(p.y() - 6) < 1.5 && std::abs(p.z() - 20) < 1.5;
+    skeleton.node_of_vertex.push_back(
+        on_limb ? 33 : std::clamp(static_cast<Index>(std::lround(p.z())), 6, 34) - 6);
+  }
+  return shape;
+}
+
 const Shape& beast() {
   static const Shape shape = sample("quadruped");
   return shape;
@@ -149,6 +183,52 @@ TEST_CASE("a bent limb moves its tip and no other limb") {
   CHECK(bent_limbs >= 5);
 }
 
+TEST_CASE("each limb has a joint that bends it, which its tip follows") {
+  for (const Shape& shape : {beast(), sample("octoped"), webbed_limbs_and_empty_arc(), block_with_flat_limb()})
+    for (const Index joints : {0, 24, 18, 12}) {
+      RigOptions options;
+      options.joints = joints;
+      const Rig rig = make_rig(shape.surface, shape.skeleton, options);
+      for (Index j = 1; j < static_cast<Index>(rig.joints.size()); ++j) {
+        const std::string& name = rig.joints[j].name;
+        if (!is_limb(name) || is_limb(rig.joints[rig.joints[j].parent].name)) continue;
+        INFO(name << ", " << joints << " joints");
+        double most = 0;
+        for (const auto& influences : rig.influences) {
+          double followed = 0;
+          for (const Influence& i : influences)
+            if (i.weight > 0 && hangs_on(rig, i.joint, j)) followed += i.weight;
+          most = std::max(most, followed);
+        }
+        CHECK(most >= 0.5);
+      }
+    }
+}
+
+TEST_CASE("with few joints limbs lose their bends before their roots") {
+  const Shape shape = sample("octoped");
+  const Index ends = count_graph(shape.skeleton).leaves;
+  RigOptions options;
+  options.joints = 3 * ends;
+  const Rig all = make_rig(shape.surface, shape.skeleton, options);
+  options.joints = 2 * ends + 4;
+  const Rig few = make_rig(shape.surface, shape.skeleton, options);
+  std::set<Index> of_all, of_few;
+  for (const RigJoint& joint : all.joints)
+    if (joint.parent != kNone && is_limb(joint.name) && !is_limb(all.joints[joint.parent].name))
+      of_all.insert(joint.node);
+  for (const RigJoint& joint : few.joints)
+    if (joint.parent != kNone && is_limb(joint.name) && !is_limb(few.joints[joint.parent].name))
+      of_few.insert(joint.node);
+  CHECK(of_all.size() == static_cast<std::size_t>(ends));
+  CHECK(of_all == of_few);
+}
+
+TEST_CASE("an arc to which no vertex is mapped has no joints") {
+  const Shape shape = webbed_limbs_and_empty_arc();
+  for (const RigJoint& joint : make_rig(shape.surface, shape.skeleton).joints) CHECK(joint.node <= 34);
+}
+
 TEST_CASE(
     "what follows a joint changes by at most 0.9 of an edge's length over its distance from the joint") {
   for (const Shape& shape : {webbed_limbs(), beast()}) {
@@ -216,7 +296,7 @@ TEST_CASE("no face turns over when a limb's first joint bends by 45 degrees") {
 }
 
 TEST_CASE("a wanted number of joints is met") {
-  for (const Index joints : {1, 2, 9, 30, 60}) {
+  for (const Index joints : {1, 3, 9, 30, 60}) {
     RigOptions options;
     options.joints = joints;
     CHECK(static_cast<Index>(make_rig(beast().surface, beast().skeleton, options).joints.size()) == joints);
