@@ -1,6 +1,8 @@
 #include "bound_slopes.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <functional>
 #include <queue>
 #include <tuple>
@@ -12,6 +14,9 @@ namespace {
 // Of 1 / r. Turned by 45 degrees, what is r away moves by 0.77 r, and weights are 1.5 times as steep as
 // shares where they are steepest; 0.87 would turn over a face that lies along the slope.
 constexpr double kSteepest = 0.6;
+
+// Along faces shares are lowered by steps of this at least, so that it ends.
+constexpr double kLeastStep = 1e-4;
 
 class Slopes {
  public:
@@ -25,8 +30,14 @@ class Slopes {
   }
 
   std::vector<LowerShare> run() {
-    for (Index h = 0; h < surface_.halfedge_count(); ++h)
-      if (!(shares_[surface_.origin[h]] == shares_[surface_.target(h)])) note(h);
+    for (Index f = 0; f < surface_.face_count(); ++f) {
+      const auto at = [&](Index k) { return shares_[surface_.origin[3 * f + k]]; };
+      if (at(0) == at(1) && at(1) == at(2)) continue;
+      for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+        if (!(shares_[surface_.origin[h]] == shares_[surface_.target(h)])) note(h);
+        if (is_blunt(h)) note_face(h);
+      }
+    }
     for (Index j = 1; j < static_cast<Index>(steep_.size()); ++j)
       if (!steep_[j].empty()) lower(j);
     std::sort(found_.begin(), found_.end(), [](const LowerShare& a, const LowerShare& b) {
@@ -50,6 +61,41 @@ class Slopes {
     while (above > joint) above = rig_.joints[above].parent;
     return above == joint ? 1.0 : 0.0;
   }
+  // Whether the face is wider than a right angle opposite the half-edge. In others no slope is more than 1.41
+  // times those of the edges.
+  bool is_blunt(Index h) const {
+    const Vector3& x = surface_.position[surface_.apex(h)];
+    return (surface_.position[surface_.origin[h]] - x).dot(surface_.position[surface_.target(h)] - x) < 0;
+  }
+  // What the share at the apex may be at most, so that it changes over the face by no more than the steepest
+  // slope, where the edge's ends have `a` and `b`.
+  double most_at_apex(Index h, Index joint, double a, double b) const {
+    const Vector3 &p = surface_.position[surface_.origin[h]], &q = surface_.position[surface_.target(h)],
+                  &x = surface_.position[surface_.apex(h)];
+    const double length = (q - p).norm(), far = ((p + q + x) / 3 - at_[joint]).norm();
+    if (!(length > 0)) return kUnchanged;
+    const double steepest = kSteepest / std::max(far, 0.5 * length), along = (b - a) / length;
+    if (std::abs(along) >= steepest) return kUnchanged;
+    const double foot = (x - p).dot(q - p) / length;
+    const double height = std::sqrt(std::max(0.0, (x - p).squaredNorm() - foot * foot));
+    return std::max(0.0, a + along * foot + std::sqrt(steepest * steepest - along * along) * height);
+  }
+  // Keeps the edges of the face, whose widest angle is opposite the half-edge, with each joint whose share
+  // rises over it by too much.
+  void note_face(Index h) {
+    const std::array<Index, 3> corner{surface_.origin[h], surface_.target(h), surface_.apex(h)};
+    for (const Index v : corner)
+      for (Index j = shares_[v].joint; j > 0; j = rig_.joints[j].parent) {
+        std::array<double, 3> has{};
+        for (int k = 0; k < 3; ++k) has[k] = share(corner[k], j);
+        if (has[0] == has[1] && has[1] == has[2]) break;
+        for (Index k = 0, side = h; k < 3; ++k, side = SurfaceSnapshot::next(side))
+          if (has[(k + 2) % 3] > most_at_apex(side, j, has[k], has[(k + 1) % 3]) + kLeastStep) {
+            steep_[j].push_back(side);
+            steep_[j].push_back(SurfaceSnapshot::next(side));
+          }
+      }
+  }
   // Keeps the half-edge with each joint whose share rises along it by too much.
   void note(Index h) {
     const BoneShare &low = shares_[surface_.origin[h]], &high = shares_[surface_.target(h)];
@@ -63,17 +109,34 @@ class Slopes {
   void lower(Index joint) {
     using Item = std::pair<double, Index>;
     std::priority_queue<Item, std::vector<Item>, std::greater<Item>> queue;
-    const auto from = [&](Index h, double here) {
-      const Index w = surface_.target(h);
-      const double present = std::min(lowered_[w], share(w, joint));
-      if (present <= here) return;
-      const double most = here + most_change(h, joint);
-      if (most >= present) return;
+    const auto present = [&](Index v) { return std::min(lowered_[v], share(v, joint)); };
+    const auto lower_to = [&](Index w, double most) {
       if (lowered_[w] == kUnchanged) touched_.push_back(w);
       lowered_[w] = most;
       queue.push({most, w});
     };
-    for (const Index h : steep_[joint]) from(h, share(surface_.origin[h], joint));
+    const auto along_edge = [&](Index h, double here) {
+      const Index w = surface_.target(h);
+      const double there = present(w);
+      if (there <= here) return;
+      if (const double most = here + most_change(h, joint); most < there) lower_to(w, most);
+    };
+    const auto over_face = [&](Index h) {
+      const Index w = surface_.apex(h);
+      const double there = present(w);
+      const double most = most_at_apex(h, joint, present(surface_.origin[h]), present(surface_.target(h)));
+      if (most < there - kLeastStep) lower_to(w, most);
+    };
+    const auto over_blunt_face = [&](Index h) {
+      const Index n = SurfaceSnapshot::next(h), p = SurfaceSnapshot::prev(h);
+      if (!is_blunt(h) && !is_blunt(n) && !is_blunt(p)) return;
+      over_face(h);
+      over_face(p);
+    };
+    for (const Index h : steep_[joint]) {
+      along_edge(h, share(surface_.origin[h], joint));
+      over_blunt_face(h);
+    }
     while (!queue.empty()) {
       const auto [here, v] = queue.top();
       queue.pop();
@@ -81,7 +144,8 @@ class Slopes {
       Index h = surface_.vertex_halfedge[v];
       const Index first = h;
       do {
-        from(h, here);
+        along_edge(h, here);
+        over_blunt_face(h);
         h = surface_.next_outgoing(h);
       } while (h != first);
     }

@@ -14,7 +14,8 @@ import npm_package  # noqa: E402
 
 PACKAGES = [("playwright-core", "1.65.1"), ("three", "0.187.0")]
 SAMPLES = ["quadruped", "octoped"]
-MESHES = ["models/horse.off", "models/hand.off", "models/octopus.off", "psb/off/10.off", "psb/off/390.off", "wild/body.obj"]
+MESHES = ["models/horse.off", "models/hand.off", "models/octopus.off", "psb/off/10.off", "psb/off/390.off", "wild/body.obj",
+          "wild/character_open.obj"]
 
 
 def skip(why):

@@ -1,5 +1,6 @@
 // A rig is a tree whose weights sum to 1 and stay on their limb.
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <set>
@@ -49,6 +50,16 @@ Shape webbed_limbs() {
     const Index y = std::clamp(static_cast<Index>(std::lround(p.y())), 2, 18) - 2;
     skeleton.node_of_vertex.push_back(p.x() < 9.5 ? y : p.x() > 10.5 || y > 0 ? 17 + y : 34);
   }
+  return shape;
+}
+
+// The same pulled askew: every face is wider than a right angle.
+Shape askew_limbs() {
+  Shape shape = webbed_limbs();
+  const auto pull = [](Vector3& p) { p += Vector3(1.5 * p.y() + 0.7 * p.z(), 0, 1.2 * p.y()); };
+  for (Vector3& p : shape.soup.points) pull(p);
+  for (SkeletonNode& node : shape.skeleton.nodes) pull(node.position);
+  shape.surface = make_snapshot(test::to_mesh(shape.soup));
   return shape;
 }
 
@@ -184,7 +195,8 @@ TEST_CASE("a bent limb moves its tip and no other limb") {
 }
 
 TEST_CASE("each limb has a joint that bends it, which its tip follows") {
-  for (const Shape& shape : {beast(), sample("octoped"), webbed_limbs_and_empty_arc(), block_with_flat_limb()})
+  for (const Shape& shape :
+       {beast(), sample("octoped"), webbed_limbs_and_empty_arc(), block_with_flat_limb()})
     for (const Index joints : {0, 24, 18, 12}) {
       RigOptions options;
       options.joints = joints;
@@ -253,6 +265,31 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("what follows a joint rises over a face by at most 1.3 over the distance from the joint") {
+  for (const Shape& shape : {askew_limbs(), beast()}) {
+    const Rig rig = make_rig(shape.surface, shape.skeleton);
+    double steepest = 0;
+    for (std::size_t f = 0; f < shape.soup.polygon_count(); ++f)
+      for (Index j = 1; j < static_cast<Index>(rig.joints.size()); ++j) {
+        std::array<Vector3, 3> x;
+        std::array<double, 3> followed{};
+        for (int k = 0; k < 3; ++k) {
+          const Index v = shape.soup.corners[3 * f + k];
+          x[k] = shape.soup.points[v];
+          for (const Influence& i : rig.influences[v])
+            if (i.weight > 0 && hangs_on(rig, i.joint, j)) followed[k] += i.weight;
+        }
+        const Vector3 normal = (x[1] - x[0]).cross(x[2] - x[0]);
+        const Vector3 slope = normal.cross((followed[1] - followed[0]) * (x[0] - x[2]) +
+                                           (followed[2] - followed[0]) * (x[1] - x[0])) /
+                              normal.squaredNorm();
+        const Vector3 middle = (x[0] + x[1] + x[2]) / 3;
+        steepest = std::max(steepest, slope.norm() * (middle - rig.joints[j].position).norm());
+      }
+    CHECK(steepest < 1.3);
+  }
+}
+
 // Farther from the joint than `surroundings`, which is in model units.
 Index count_flipped(const Shape& shape, const std::vector<Vector3>& bent, const Vector3& joint,
                     double surroundings, const Eigen::Matrix3d& turn, const Rig& rig, Index turned) {
@@ -278,7 +315,8 @@ Index count_flipped(const Shape& shape, const std::vector<Vector3>& bent, const 
 }
 
 TEST_CASE("no face turns over when a limb's first joint bends by 45 degrees") {
-  for (const Shape& shape : {webbed_limbs(), beast(), sample("octoped"), sample("table")}) {
+  for (const Shape& shape :
+       {webbed_limbs(), askew_limbs(), beast(), sample("octoped"), sample("table")}) {
     const Rig rig = make_rig(shape.surface, shape.skeleton);
     for (Index j = 1; j < static_cast<Index>(rig.joints.size()); ++j) {
       if (!is_limb(rig.joints[j].name) || is_limb(rig.joints[rig.joints[j].parent].name)) continue;

@@ -22,14 +22,15 @@ void validate(const RigOptions& options);
 
 // Joints where arcs meet, where they leave the ball of such a place, where they bend and where they end; the
 // root is the one nearest the middle of the surface along the skeleton. Cycles are cut farthest from the
-// root; pieces of the skeleton hang on the root of the largest. Each limb has a joint that bends it as a whole
-// and that its tip follows more than the body; arcs that no vertex follows so have no joints. A vertex follows the bone beside it and, near
-// a joint, the next one; what follows a joint changes along an edge of the surface by at most 0.9 of the
-// edge's length over its distance from the joint, so that no face turns over when the joint turns by 45
-// degrees. Names: "root"; "body3_1" is the first joint of the third stretch between junctions, "limb2_1" that
-// of the second limb; where limbs mirror each other they end in _L and _R. docs/rigging.md has pictures.
-// Throws UsageError for options out of range, a skeleton without nodes or one whose map does not fit the
-// surface. O(nodes log nodes + joints * nodes + vertices log vertices).
+// root; pieces of the skeleton hang on the root of the largest. Each limb has a joint that bends it as a
+// whole and that its tip follows more than the body; arcs that no vertex follows so have no joints. A vertex
+// follows the bone beside it and, near a joint, the next one; what follows a joint changes along an edge of
+// the surface by at most 0.9 of the edge's length over its distance from the joint, and about so over faces,
+// so that no face turns over when the joint turns by 45 degrees. Names: "root"; "body3_1" is the first joint
+// of the third stretch between junctions, "limb2_1" that of the second limb; where limbs mirror each other
+// they end in _L and _R. docs/rigging.md has pictures. Throws UsageError for options out of range, a skeleton
+// without nodes or one whose map does not fit the surface. O(nodes log nodes + joints * nodes + vertices log
+// vertices).
 Rig make_rig(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton, const RigOptions& options = {});
 
 }  // namespace mspskel
