@@ -5,7 +5,6 @@
 #include <cmath>
 #include <functional>
 #include <queue>
-#include <tuple>
 #include <utility>
 
 namespace mspskel::detail {
@@ -20,13 +19,20 @@ constexpr double kLeastStep = 1e-4;
 
 class Slopes {
  public:
-  Slopes(const SurfaceSnapshot& surface, const Rig& rig, const std::vector<BoneShare>& shares)
+  Slopes(const SurfaceSnapshot& surface, const Rig& rig, const std::vector<BoneShare>& shares,
+         const std::vector<char>& asked)
       : surface_(surface),
         rig_(rig),
         shares_(shares),
+        asked_(asked),
         steep_(rig.joints.size()),
-        lowered_(surface.vertex_count(), kUnchanged) {
+        lowered_(surface.vertex_count(), kUnchanged),
+        bluntness_(surface.face_count(), kUnknown) {
     for (const RigJoint& joint : rig.joints) at_.push_back(surface.frame.to_normalised(joint.position));
+    const std::size_t count = rig.joints.size();
+    hangs_on_.assign(count, std::vector<char>(count, 0));
+    for (std::size_t j = 0; j < count; ++j)
+      for (Index up = rig.joints[j].parent; up != kNone; up = rig.joints[up].parent) hangs_on_[up][j] = 1;
   }
 
   std::vector<LowerShare> run() {
@@ -40,15 +46,22 @@ class Slopes {
     }
     for (Index j = 1; j < static_cast<Index>(steep_.size()); ++j)
       if (!steep_[j].empty()) lower(j);
-    std::sort(found_.begin(), found_.end(), [](const LowerShare& a, const LowerShare& b) {
-      return std::tie(a.vertex, a.joint) < std::tie(b.vertex, b.joint);
-    });
-    return std::move(found_);
+    return by_vertex();
   }
 
  private:
   static constexpr double kUnchanged = 2;
+  enum : char { kUnknown, kSharp, kBlunt };
 
+  // They were found joint by joint.
+  std::vector<LowerShare> by_vertex() const {
+    std::vector<std::size_t> place(surface_.vertex_count() + 1, 0);
+    for (const LowerShare& lower : found_) ++place[lower.vertex + 1];
+    for (std::size_t v = 1; v < place.size(); ++v) place[v] += place[v - 1];
+    std::vector<LowerShare> sorted(found_.size());
+    for (const LowerShare& lower : found_) sorted[place[lower.vertex]++] = lower;
+    return sorted;
+  }
   double most_change(Index h, Index joint) const {
     const Vector3 &a = surface_.position[surface_.origin[h]], &b = surface_.position[surface_.target(h)];
     const double length = (b - a).norm(), far = (0.5 * (a + b) - at_[joint]).norm();
@@ -57,15 +70,18 @@ class Slopes {
   double share(Index v, Index joint) const {
     const BoneShare& s = shares_[v];
     if (s.joint == joint) return s.share;
-    Index above = s.joint;
-    while (above > joint) above = rig_.joints[above].parent;
-    return above == joint ? 1.0 : 0.0;
+    return hangs_on_[joint][s.joint];
   }
   // Whether the face is wider than a right angle opposite the half-edge. In others no slope is more than 1.41
   // times those of the edges.
   bool is_blunt(Index h) const {
     const Vector3& x = surface_.position[surface_.apex(h)];
     return (surface_.position[surface_.origin[h]] - x).dot(surface_.position[surface_.target(h)] - x) < 0;
+  }
+  bool is_blunt_face(Index f) {
+    if (bluntness_[f] == kUnknown)
+      bluntness_[f] = is_blunt(3 * f) || is_blunt(3 * f + 1) || is_blunt(3 * f + 2) ? kBlunt : kSharp;
+    return bluntness_[f] == kBlunt;
   }
   // What the share at the apex may be at most, so that it changes over the face by no more than the steepest
   // slope, where the edge's ends have `a` and `b`.
@@ -86,6 +102,7 @@ class Slopes {
     const std::array<Index, 3> corner{surface_.origin[h], surface_.target(h), surface_.apex(h)};
     for (const Index v : corner)
       for (Index j = shares_[v].joint; j > 0; j = rig_.joints[j].parent) {
+        if (!asked_[j]) continue;
         std::array<double, 3> has{};
         for (int k = 0; k < 3; ++k) has[k] = share(corner[k], j);
         if (has[0] == has[1] && has[1] == has[2]) break;
@@ -101,7 +118,7 @@ class Slopes {
     const BoneShare &low = shares_[surface_.origin[h]], &high = shares_[surface_.target(h)];
     for (Index j = high.joint; j > 0; j = rig_.joints[j].parent) {
       const double rise = (j == high.joint ? high.share : 1.0) - share(surface_.origin[h], j);
-      if (rise > 0 && rise > most_change(h, j)) steep_[j].push_back(h);
+      if (asked_[j] && rise > 0 && rise > most_change(h, j)) steep_[j].push_back(h);
       if (j == low.joint) return;
     }
   }
@@ -121,21 +138,22 @@ class Slopes {
       if (there <= here) return;
       if (const double most = here + most_change(h, joint); most < there) lower_to(w, most);
     };
-    const auto over_face = [&](Index h) {
+    const auto over_face = [&](Index h, double here) {
       const Index w = surface_.apex(h);
       const double there = present(w);
+      if (there <= here) return;
       const double most = most_at_apex(h, joint, present(surface_.origin[h]), present(surface_.target(h)));
       if (most < there - kLeastStep) lower_to(w, most);
     };
-    const auto over_blunt_face = [&](Index h) {
-      const Index n = SurfaceSnapshot::next(h), p = SurfaceSnapshot::prev(h);
-      if (!is_blunt(h) && !is_blunt(n) && !is_blunt(p)) return;
-      over_face(h);
-      over_face(p);
+    const auto over_blunt_face = [&](Index h, double here) {
+      if (!is_blunt_face(h / 3)) return;
+      over_face(h, here);
+      over_face(SurfaceSnapshot::prev(h), here);
     };
     for (const Index h : steep_[joint]) {
-      along_edge(h, share(surface_.origin[h], joint));
-      over_blunt_face(h);
+      const double here = present(surface_.origin[h]);
+      along_edge(h, here);
+      over_blunt_face(h, here);
     }
     while (!queue.empty()) {
       const auto [here, v] = queue.top();
@@ -145,7 +163,7 @@ class Slopes {
       const Index first = h;
       do {
         along_edge(h, here);
-        over_blunt_face(h);
+        over_blunt_face(h, here);
         h = surface_.next_outgoing(h);
       } while (h != first);
     }
@@ -159,9 +177,12 @@ class Slopes {
   const SurfaceSnapshot& surface_;
   const Rig& rig_;
   const std::vector<BoneShare>& shares_;
+  const std::vector<char>& asked_;
+  std::vector<std::vector<char>> hangs_on_;  // per joint, for each: whether it is below
   std::vector<Vector3> at_;                // per joint, in the surface's frame
   std::vector<std::vector<Index>> steep_;  // per joint: half-edges, from low to high
   std::vector<double> lowered_;            // per vertex: of the present joint
+  std::vector<char> bluntness_;            // per face
   std::vector<Index> touched_;
   std::vector<LowerShare> found_;
 };
@@ -169,8 +190,8 @@ class Slopes {
 }  // namespace
 
 std::vector<LowerShare> bound_slopes(const SurfaceSnapshot& surface, const Rig& rig,
-                                     const std::vector<BoneShare>& shares) {
-  return Slopes(surface, rig, shares).run();
+                                     const std::vector<BoneShare>& shares, const std::vector<char>& asked) {
+  return Slopes(surface, rig, shares, asked).run();
 }
 
 }  // namespace mspskel::detail

@@ -33,6 +33,7 @@ class Influences {
   explicit Influences(const Rig& rig) : rig_(rig) {}
 
   std::array<Influence, 4> of(const BoneShare& share, const LowerShare* begin, const LowerShare* end) {
+    if (share.share >= 1 && begin == end) return {{{share.joint, 1.0}}};
     way_.clear();
     for (Index j = share.joint; j != kNone; j = rig_.joints[j].parent)
       way_.push_back({j, j == share.joint ? share.share : 1.0});
@@ -85,6 +86,7 @@ std::vector<std::array<Influence, 4>> influences_of(const Rig& rig, const std::v
 
 void lay_joints(const CurveSkeleton& skeleton, const SkeletonTree& tree, const std::vector<char>& marked,
                 Rig& rig) {
+  rig.joints.clear();
   std::vector<Index> joint(skeleton.nodes.size(), kNone);
   for (const Index n : tree.order) {
     if (!marked[n]) continue;
@@ -94,11 +96,79 @@ void lay_joints(const CurveSkeleton& skeleton, const SkeletonTree& tree, const s
   }
 }
 
-void weigh(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton, const SkeletonTree& tree,
-           double blend, Rig& rig) {
-  const std::vector<BoneShare> shares = detail::bone_shares(surface, skeleton, tree, rig, blend);
-  rig.influences = influences_of(rig, shares, detail::bound_slopes(surface, rig, shares));
-}
+// Influences of one choice of joints after another, of which most have the shares that they had.
+class Weigher {
+ public:
+  Weigher(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton, const SkeletonTree& tree,
+          double blend)
+      : surface_(surface), skeleton_(skeleton), tree_(tree), blend_(blend) {}
+
+  void weigh(Rig& rig) {
+    std::vector<BoneShare> shares = detail::bone_shares(surface_, skeleton_, tree_, rig, blend_);
+    const std::vector<char> asked = find_changed(rig, shares);
+    std::vector<LowerShare> lower = detail::bound_slopes(surface_, rig, shares, asked);
+    keep_unchanged(asked, lower);
+    rig.influences = influences_of(rig, shares, lower);
+    shares_ = std::move(shares);
+    lower_ = std::move(lower);
+    node_of_joint_.clear();
+    for (const RigJoint& joint : rig.joints) node_of_joint_.push_back(joint.node);
+  }
+
+ private:
+  // Per joint: whether some vertex follows it otherwise than the time before.
+  std::vector<char> find_changed(const Rig& rig, const std::vector<BoneShare>& shares) {
+    const std::size_t count = rig.joints.size();
+    std::vector<Index> joint_of_node(skeleton_.nodes.size(), kNone);
+    for (std::size_t j = 0; j < count; ++j) joint_of_node[rig.joints[j].node] = static_cast<Index>(j);
+    std::vector<char> changed(count, 1);
+    joint_of_old_.clear();
+    for (const Index node : node_of_joint_) {
+      joint_of_old_.push_back(joint_of_node[node]);
+      if (joint_of_node[node] != kNone) changed[joint_of_node[node]] = 0;
+    }
+    for (std::size_t v = 0; v < shares_.size(); ++v) {
+      const Index old = joint_of_old_[shares_[v].joint];
+      if (BoneShare{old, shares_[v].share} == shares[v]) continue;
+      // Where the old joint is gone, so are the shares that it had.
+      mark_way(rig, shares[v].joint, old, changed);
+      mark_way(rig, old, shares[v].joint, changed);
+    }
+    return changed;
+  }
+  // From `from` up to the joint that carries both, that one too: above it both follow wholly.
+  static void mark_way(const Rig& rig, Index from, Index other, std::vector<char>& changed) {
+    const auto carries = [&](Index joint) {
+      Index j = other;
+      while (j != kNone && j > joint) j = rig.joints[j].parent;
+      return j == joint;
+    };
+    for (Index j = from; j != kNone; j = rig.joints[j].parent) {
+      changed[j] = 1;
+      if (carries(j)) return;
+    }
+  }
+  void keep_unchanged(const std::vector<char>& changed, std::vector<LowerShare>& lower) const {
+    const std::size_t found = lower.size();
+    for (const LowerShare& old : lower_)
+      if (const Index j = joint_of_old_[old.joint]; j != kNone && !changed[j])
+        lower.push_back({old.vertex, j, old.share});
+    std::inplace_merge(lower.begin(), lower.begin() + static_cast<std::ptrdiff_t>(found), lower.end(),
+                       [](const LowerShare& a, const LowerShare& b) {
+                         return a.vertex < b.vertex || (a.vertex == b.vertex && a.joint < b.joint);
+                       });
+  }
+
+  const SurfaceSnapshot& surface_;
+  const CurveSkeleton& skeleton_;
+  const SkeletonTree& tree_;
+  const double blend_;
+  // Of the time before.
+  std::vector<BoneShare> shares_;
+  std::vector<LowerShare> lower_;
+  std::vector<Index> node_of_joint_;
+  std::vector<Index> joint_of_old_;  // the present one at the same node; kNone: none
+};
 
 // Per joint the first of the limb that it is on: what hangs on that one is a chain. kNone: on no limb.
 std::vector<Index> limbs_of(const Rig& rig) {
@@ -114,10 +184,8 @@ std::vector<Index> limbs_of(const Rig& rig) {
   return first;
 }
 
-// A limb that nothing follows more than what it hangs on turns farther out, half way to its end; where it has
-// no joint left to do so it is none. Whether there was such a limb.
-bool mend_idle_limbs(const SkeletonTree& tree, const Rig& rig, std::vector<char>& marked) {
-  const std::vector<Index> first = limbs_of(rig);
+// The first joints of limbs that nothing follows more than what they hang on.
+std::vector<Index> idle_limbs(const Rig& rig, const std::vector<Index>& first) {
   std::vector<double> followed(rig.joints.size(), 0.0);
   for (const auto& influences : rig.influences) {
     // A vertex follows joints of one way from the root, so of one limb.
@@ -130,13 +198,62 @@ bool mend_idle_limbs(const SkeletonTree& tree, const Rig& rig, std::vector<char>
       }
     if (limb != kNone) followed[limb] = std::max(followed[limb], sum);
   }
-  bool changed = false;
-  for (std::size_t j = 1; j < first.size(); ++j) {
-    if (first[j] != static_cast<Index>(j) || followed[j] >= 0.5) continue;
-    detail::turn_farther_out(tree, rig.joints[j].node, marked);
-    changed = true;
+  std::vector<Index> idle;
+  for (std::size_t j = 1; j < first.size(); ++j)
+    if (first[j] == static_cast<Index>(j) && followed[j] < 0.5) idle.push_back(first[j]);
+  return idle;
+}
+
+// What follows a dropped joint follows the one that it hangs on.
+void drop_joints(const std::vector<char>& dropped, Rig& rig) {
+  std::vector<Index> stands_for(rig.joints.size(), 0);
+  std::vector<RigJoint> kept;
+  for (std::size_t j = 0; j < rig.joints.size(); ++j) {
+    const Index above = rig.joints[j].parent == kNone ? kNone : stands_for[rig.joints[j].parent];
+    stands_for[j] = dropped[j] ? above : static_cast<Index>(kept.size());
+    if (dropped[j]) continue;
+    kept.push_back(rig.joints[j]);
+    kept.back().parent = above;
   }
-  return changed;
+  rig.joints = std::move(kept);
+  for (auto& influences : rig.influences) {
+    std::array<Influence, 4> merged{};
+    std::size_t count = 0;
+    for (const Influence& influence : influences) {
+      if (!(influence.weight > 0)) continue;
+      const Index joint = stands_for[influence.joint];
+      std::size_t i = 0;
+      while (i < count && merged[i].joint != joint) ++i;
+      count = std::max(count, i + 1);
+      merged[i].joint = joint;
+      merged[i].weight += influence.weight;
+    }
+    std::stable_sort(merged.begin(), merged.begin() + static_cast<std::ptrdiff_t>(count),
+                     [](const Influence& a, const Influence& b) { return a.weight > b.weight; });
+    influences = merged;
+  }
+}
+
+// Idle limbs are none. Where all that hangs on a joint is idle, the end of one stays, since it gives that
+// joint's bone its length.
+void drop_idle_limbs(Rig& rig) {
+  const std::vector<Index> first = limbs_of(rig), idle = idle_limbs(rig, first);
+  if (idle.empty()) return;
+  std::vector<char> dropped(rig.joints.size(), 0);
+  for (std::size_t j = 0; j < first.size(); ++j)
+    dropped[j] = first[j] != kNone && std::binary_search(idle.begin(), idle.end(), first[j]) ? 1 : 0;
+  std::vector<char> carries(rig.joints.size(), 0);
+  for (std::size_t j = 1; j < first.size(); ++j)
+    if (!dropped[j]) carries[rig.joints[j].parent] = 1;
+  for (std::size_t j = first.size() - 1; j > 0; --j) {
+    const bool is_end = std::none_of(rig.joints.begin() + static_cast<std::ptrdiff_t>(j), rig.joints.end(),
+                                     [&](const RigJoint& joint) { return joint.parent == static_cast<Index>(j); });
+    if (!dropped[j] || !is_end) continue;
+    char& carried = carries[rig.joints[first[j]].parent];
+    dropped[j] = carried;
+    carried = 1;
+  }
+  drop_joints(dropped, rig);
 }
 
 }  // namespace
@@ -152,11 +269,16 @@ Rig make_rig(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton, cons
   const SkeletonTree tree = detail::make_skeleton_tree(skeleton);
   std::vector<char> marked = detail::choose_joints(skeleton, tree, options.joints);
   Rig rig;
-  do {
-    rig.joints.clear();
+  lay_joints(skeleton, tree, marked, rig);
+  Weigher weigher(surface, skeleton, tree, options.blend);
+  weigher.weigh(rig);
+  const std::vector<Index> idle = idle_limbs(rig, limbs_of(rig));
+  if (!idle.empty()) {
+    for (const Index j : idle) detail::turn_farther_out(tree, rig.joints[j].node, marked);
     lay_joints(skeleton, tree, marked, rig);
-    weigh(surface, skeleton, tree, options.blend, rig);
-  } while (mend_idle_limbs(tree, rig, marked));
+    weigher.weigh(rig);
+    drop_idle_limbs(rig);
+  }
   rig.cut = tree.cut;
   detail::name_joints(rig, surface.frame.scale);
   return rig;

@@ -28,7 +28,7 @@ SkeletonTree make_skeleton_tree(const CurveSkeleton& skeleton);
 std::vector<char> choose_joints(const CurveSkeleton& skeleton, const SkeletonTree& tree, Index wanted);
 
 // Moves the mark of a limb's first joint, at `node`, to half the length between it and the next mark below it,
-// or takes it away where no node lies between: from the limb's end upwards that is all of the limb.
+// or takes it away where no node lies between.
 void turn_farther_out(const SkeletonTree& tree, Index node, std::vector<char>& marked);
 
 // The next node towards the root that is marked; kNone at the root.
