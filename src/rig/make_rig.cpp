@@ -51,10 +51,9 @@ class Influences {
  private:
   std::array<Influence, 4> strongest() {
     const std::size_t kept = std::min<std::size_t>(4, way_.size());
-    std::partial_sort(way_.begin(), way_.begin() + static_cast<std::ptrdiff_t>(kept), way_.end(),
-                      [](const Influence& a, const Influence& b) {
-                        return a.weight > b.weight || (a.weight == b.weight && a.joint < b.joint);
-                      });
+    std::sort(way_.begin(), way_.end(), [](const Influence& a, const Influence& b) {
+      return a.weight > b.weight || (a.weight == b.weight && a.joint < b.joint);
+    });
     std::array<Influence, 4> influences{};
     double sum = 0;
     for (std::size_t i = 0; i < kept; ++i)
