@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <set>
 
+#include "../topology/voxel_solids.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/skeleton/surface_map.h"
 #include "support/arc_graphs.h"
@@ -115,6 +116,36 @@ TEST_CASE("Hubs and arcs have the same numbers however the nodes are turned and 
       for (std::size_t i = 0; i < points.size(); ++i)
         REQUIRE((points[i] - turn * expected_points[i]).norm() < 1e-12);
     }
+  }
+}
+
+TEST_CASE("Of several balls that touch a vertex the same one has it however the model is turned") {
+  // All nodes see the vertex (6, 6, 3) on the inner edge of an angle as their nearest.
+  VoxelSolid solid;
+  solid.box({0, 0, 0}, {12, 6, 6});
+  solid.box({0, 0, 0}, {6, 12, 6});
+  const PolygonSoup soup = boundary(solid);
+  std::vector<Index> expected;
+  for (int run = 0; run < 12; ++run) {
+    const Vector3 axis(1, 2, 3 + run);
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7 * run, axis.normalized()).toRotationMatrix();
+    PolygonSoup turned = soup;
+    for (Vector3& p : turned.points) p = turn * p;
+    const SurfaceSnapshot surface = make_snapshot(to_mesh(turned));
+    const auto place = [&](double x, double y) -> Vector3 {
+      return surface.frame.to_normalised(turn * Vector3(x, y, 3));
+    };
+    ArcGraph graph;
+    for (const Vector3& p : {place(4.5, 4.5), place(5.7, 4.1), place(4.1, 5.7)}) graph.add_hub(p);
+    line(graph, 0, 1, 8);
+    line(graph, 0, 2, 8);
+    graph.hub_of_vertex.assign(surface.vertex_count(), 0);
+    graph.arc_of_vertex.assign(surface.vertex_count(), kNone);
+    const std::vector<double> none(surface.vertex_count(), 0.0);
+    const CurveSkeleton skeleton =
+        make_curve_skeleton(graph, surface, BoundingVolumeHierarchy(surface), none, none);
+    if (run == 0) expected = skeleton.node_of_vertex;
+    CHECK(skeleton.node_of_vertex == expected);
   }
 }
 

@@ -118,11 +118,16 @@ inline std::vector<Vector3> points_for_output(const Arc& arc, const std::vector<
   return resampled(arc, longest > 0 ? 2 * longest : 1.0, static_cast<Index>(least) - 1);
 }
 
+// Several balls touch one vertex. Where they differ by less than this share of the extent it is by rounding,
+// and otherwise on a turned model: of such the first has the vertex.
+constexpr double kSameBall = 1e-9;
+
 // Nodes that a vertex of a hub may go to: the hub's own and those of the arcs there.
 inline void assign_hub_vertices(const ArcGraph& graph, const SurfaceSnapshot& surface,
                                 const std::vector<Index>& hub_node, const std::vector<std::vector<Index>>& at,
                                 const std::vector<Branch>& arc_nodes, CurveSkeleton& skeleton,
                                 const Execution& execution) {
+  const double same = kSameBall * surface.frame.scale;
   const auto assign = [&](Index v, int) {
     const Index hub = graph.hub_of_vertex[v];
     if (hub == kNone) return;
@@ -133,7 +138,7 @@ inline void assign_hub_vertices(const ArcGraph& graph, const SurfaceSnapshot& su
     for (const Index a : at[hub])
       for (const Index i : arc_nodes[a].nodes) {
         const SkeletonNode& node = skeleton.nodes[i];
-        const double reach = nearest + node.radius, square = (node.position - x).squaredNorm();
+        const double reach = nearest - same + node.radius, square = (node.position - x).squaredNorm();
         if (reach <= 0 || square >= reach * reach) continue;
         nearest = std::sqrt(square) - node.radius;
         best = i;
