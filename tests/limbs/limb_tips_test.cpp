@@ -178,6 +178,25 @@ TEST_CASE("A limb's slenderness is its length over its radius, however fine the 
   }
 }
 
+TEST_CASE("A twig of a single vertex is a limb, and a bump of one is none") {
+  for (const auto& [length, tips] : {std::pair<double, std::size_t>{1.2, 4}, {0.3, 3}}) {
+    DefaultMesh mesh = to_mesh(skin_graph(tripod(), 1200));
+    const Vector3 place(0, 0.45, 1.5);
+    auto nearest = *mesh.vertices_begin();
+    for (const auto v : mesh.vertices())
+      if ((to_vector3(mesh.point(v)) - place).norm() < (to_vector3(mesh.point(nearest)) - place).norm())
+        nearest = v;
+    const Vector3 top = to_vector3(mesh.point(nearest)) + Vector3(0, length, 0);
+    mesh.set_point(nearest, {top.x(), top.y(), top.z()});
+    const Solid solid(mesh);
+    const std::vector<LimbTip> found = tips_of(solid);
+    CHECK(found.size() == tips);
+    CHECK(std::any_of(found.begin(), found.end(), [&](const LimbTip& tip) {
+            return (solid.model(tip.position) - top).norm() < 1e-6;
+          }) == (tips == 4));
+  }
+}
+
 TEST_CASE("Small ears count on a body with limbs, and no bump of a body without") {
   BallGraph bear;
   bear.blend = 0.05;

@@ -50,6 +50,8 @@ class LimbTipSearch {
     GrowingParts<Notes> parts(surface_, distance_, std::move(reached), place);
     parts.grow(
         [&](Part& high, Part& low, Index saddle) {
+          judge_twig(high, distance_[saddle]);
+          judge_twig(low, distance_[saddle]);
           if (finish(low)) high.notes.own = std::max(high.notes.own, distance_[saddle]);
           high.notes.area += low.notes.area;
           high.notes.vertices += low.notes.vertices;
@@ -104,6 +106,24 @@ class LimbTipSearch {
       h = surface_.next_outgoing(h);
     } while (h != first);
     return change;
+  }
+
+  // A part of so few triangles that its vertices tell no slenderness, with its triangles cut at the level where
+  // it meets another. It has to stand out as a finger does, and as deep as two radii of its mouth: a slice
+  // through the only vertex of a twig may lie along it and tells no width.
+  void judge_twig(Part& part, double level) {
+    constexpr double kDeep = 2;
+    const double depth = distance_[part.top] - level;
+    if (part.notes.slenderness > 0 || part.notes.vertices >= kLeastEvidence ||
+        !(depth > kLeastTipDepth * smallest_feature(part.top)))
+      return;
+    PartShapeSum sum(surface_, distance_, level);
+    for (const Index v : part.vertices) sum.add_vertex(v);
+    const PartShape shape = sum.shape(distance_[part.top]);
+    const double slenderness = 2 * kPi * depth * depth / shape.area;
+    if (!(slenderness >= kFinger * options_.slenderness) || 2 * kPi * depth < kDeep * shape.mouth) return;
+    part.notes.slenderness = slenderness;
+    part.notes.level = std::nextafter(level, distance_[part.top]);  // the saddle belongs to no part
   }
 
   // Where the slices are narrower than the usual smallest feature, what is small is as much smaller.
