@@ -114,7 +114,7 @@ class LimbTipSearch {
   void judge_twig(Part& part, double level) {
     constexpr double kDeep = 2;
     const double depth = distance_[part.top] - level;
-    if (part.notes.slenderness > 0 || part.notes.vertices >= kLeastEvidence ||
+    if (part.notes.slenderest.slenderness > 0 || part.notes.vertices >= kLeastEvidence ||
         !(depth > kLeastTipDepth * smallest_feature(part.top)))
       return;
     PartShapeSum sum(surface_, distance_, level);
@@ -122,8 +122,7 @@ class LimbTipSearch {
     const PartShape shape = sum.shape(distance_[part.top]);
     const double slenderness = 2 * kPi * depth * depth / shape.area;
     if (!(slenderness >= kFinger * options_.slenderness) || 2 * kPi * depth < kDeep * shape.mouth) return;
-    part.notes.slenderness = slenderness;
-    part.notes.level = std::nextafter(level, distance_[part.top]);  // the saddle belongs to no part
+    part.notes.slenderest = {slenderness, std::nextafter(level, distance_[part.top])};  // without the saddle
   }
 
   // Where the slices are narrower than the usual smallest feature, what is small is as much smaller.
