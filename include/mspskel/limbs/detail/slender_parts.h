@@ -26,10 +26,11 @@ struct PartLevel {
 };
 
 // A bump that is no wider than what carries it, as a fin, a nose or a boss: deep for its mouth and bulging
-// from it, the mouth no longer than the rim of the ball that carries it but for a fifth.
+// from it, the mouth no longer than the rim of a square as wide as the ball that carries it.
 inline bool is_bump(const PartLevel& level, double carrier_rim, const LimbOptions& options) {
+  constexpr double kSquare = 1.28;  // 4 / π
   return level.depth_over_mouth() >= 0.64 * options.slenderness && level.bulge() >= 1.5 &&
-         level.mouth <= 1.2 * carrier_rim;
+         level.mouth <= kSquare * carrier_rim;
 }
 
 // A part at the levels at which it is most so.
