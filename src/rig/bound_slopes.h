@@ -16,11 +16,11 @@ struct LowerShare {
 // A joint that is turned moves what is r from it by up to r times the turn, so a face turns over where the
 // joint's weight changes by more than about 1 / r a unit of length. So each joint's share becomes the largest
 // one that is nowhere more than it was and changes along each edge of the surface, and over each face that is
-// wider than a right angle, by at most a share of length / r. That leaves limbs alone, whose radius is about as far as their bones' blends are long; it
-// closes what the surface map tears: two fingers side by side on a palm, a fold between an arm and the trunk.
-// Weights come to no vertex that had none, so other limbs stay where they are. Ascending by vertex, then by
-// joint. Only of the joints for which `asked` is not 0. O(vertices + n log n) for n vertices and joints that
-// change.
+// wider than a right angle, by at most a share of length / r. That leaves limbs alone, whose radius is about
+// as far as their bones' blends are long; it closes what the surface map tears: two fingers side by side on a
+// palm, a fold between an arm and the trunk. Weights come to no vertex that had none, so other limbs stay
+// where they are. Ascending by vertex, then by joint. Only of the joints for which `asked` is not 0.
+// O(vertices + n log n) for n vertices and joints that change.
 std::vector<LowerShare> bound_slopes(const SurfaceSnapshot& surface, const Rig& rig,
                                      const std::vector<BoneShare>& shares, const std::vector<char>& asked);
 

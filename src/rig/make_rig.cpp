@@ -241,13 +241,13 @@ void drop_idle_limbs(Rig& rig) {
   std::vector<char> dropped(rig.joints.size(), 0);
   for (std::size_t j = 0; j < first.size(); ++j)
     dropped[j] = first[j] != kNone && std::binary_search(idle.begin(), idle.end(), first[j]) ? 1 : 0;
-  std::vector<char> carries(rig.joints.size(), 0);
-  for (std::size_t j = 1; j < first.size(); ++j)
+  std::vector<char> is_end(rig.joints.size(), 1), carries(rig.joints.size(), 0);
+  for (std::size_t j = 1; j < first.size(); ++j) {
+    is_end[rig.joints[j].parent] = 0;
     if (!dropped[j]) carries[rig.joints[j].parent] = 1;
+  }
   for (std::size_t j = first.size() - 1; j > 0; --j) {
-    const bool is_end = std::none_of(rig.joints.begin() + static_cast<std::ptrdiff_t>(j), rig.joints.end(),
-                                     [&](const RigJoint& joint) { return joint.parent == static_cast<Index>(j); });
-    if (!dropped[j] || !is_end) continue;
+    if (!dropped[j] || !is_end[j]) continue;
     char& carried = carries[rig.joints[first[j]].parent];
     dropped[j] = carried;
     carried = 1;

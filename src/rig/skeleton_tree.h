@@ -27,8 +27,8 @@ SkeletonTree make_skeleton_tree(const CurveSkeleton& skeleton);
 // Per node whether it becomes a joint. See make_rig.
 std::vector<char> choose_joints(const CurveSkeleton& skeleton, const SkeletonTree& tree, Index wanted);
 
-// Moves the mark of a limb's first joint, at `node`, to half the length between it and the next mark below it,
-// or takes it away where no node lies between.
+// Moves the mark of a limb's first joint, at `node`, to half the length between it and the next mark below
+// it, or takes it away where no node lies between.
 void turn_farther_out(const SkeletonTree& tree, Index node, std::vector<char>& marked);
 
 // The next node towards the root that is marked; kNone at the root.
