@@ -28,7 +28,7 @@ struct PartLevel {
 // A bump that is no wider than what carries it, as a fin, a nose or a boss: deep for its mouth and bulging
 // from it, the mouth no longer than the rim of a square as wide as the ball that carries it.
 inline bool is_bump(const PartLevel& level, double carrier_rim, const LimbOptions& options) {
-  constexpr double kSquare = 1.28;  // 4 / π
+  constexpr double kSquare = 4 / kPi;  // over the rim of a ball of that width
   return level.depth_over_mouth() >= 0.64 * options.slenderness && level.bulge() >= 1.5 &&
          level.mouth <= kSquare * carrier_rim;
 }
