@@ -108,9 +108,9 @@ class LimbTipSearch {
     return change;
   }
 
-  // A part of so few triangles that its vertices tell no slenderness, with its triangles cut at the level where
-  // it meets another. It has to stand out as a finger does, and as deep as two radii of its mouth: a slice
-  // through the only vertex of a twig may lie along it and tells no width.
+  // A part of so few triangles that its vertices tell no slenderness, with its triangles cut at the level
+  // where it meets another. It has to stand out as a finger does, and as deep as two radii of its mouth: a
+  // slice through the only vertex of a twig may lie along it and tells no width.
   void judge_twig(Part& part, double level) {
     constexpr double kDeep = 2;
     const double depth = distance_[part.top] - level;

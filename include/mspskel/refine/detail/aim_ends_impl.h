@@ -61,8 +61,8 @@ inline std::size_t last_in_sight(const std::vector<Vector3>& points, const LimbT
 }
 
 // Leads a leaf arc to the target of its tip: straight from its last point that sees it, else along the middle
-// of the solid from the joint. Up to a target inside the solid, or to where the ball nearly touches one on the
-// surface.
+// of the solid from the joint. Up to a target inside the solid, or to where the ball nearly touches one on
+// the surface.
 inline bool lead_to_target(std::vector<Vector3>& points, const LimbTip& tip, InnerGraph& inner, double step) {
   constexpr Index kMostOfWay = 2000;  // vertices; a way that comes by more is none into a limb
   constexpr double kNear = 2;         // half widths; what ends so near its target needs no other way
