@@ -19,8 +19,8 @@ Index aim_ends(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVo
 // that sees it, up to the one nearest to it, and along the middle of the solid from their joint where none
 // does, as in a bent twig; those that end within `slack` half widths of the limb from it stay. The steps are
 // shorter in limbs that are thin. Returns the hubs of the ends that moved. The graph's map and the tips are
-// of the vertices of `inner`. Cost: O(vertices on leaf arcs), a few queries a tip, and a search along the limb
-// for each that is out of sight.
+// of the vertices of `inner`. Cost: O(vertices on leaf arcs), a few queries a tip, and a search along the
+// limb for each that is out of sight.
 std::vector<Index> aim_at_tips(ArcGraph& graph, detail::InnerGraph& inner, const std::vector<LimbTip>& tips,
                                double step, double slack = 0);
 
