@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
+#include "mspskel/mesh/detail/triangle_queries.h"
 #include "support/meshes.h"
 
 using namespace mspskel;
