@@ -96,8 +96,7 @@ class JointChoice {
     constexpr Index kMost = 40, kLeast = 13, kLeastPerEnd = 3;
     const Index most = wanted > 0 ? wanted : kMost;
     const Index least = wanted > 0 ? wanted : std::min(kLeast, kLeastPerEnd * leaves);
-    while (count_ > most && drop_least()) {
-    }
+    while (count_ > most && drop_least()) mark_bare_ends();
     while (count_ < least && split_longest()) {
     }
     return marked_;
@@ -162,17 +161,24 @@ class JointChoice {
   // What leaves a junction turns where it leaves its ball, and a limb that hardly does so at half its length:
   // each has a joint that bends it.
   void mark_limb_roots() {
-    for (const Index n : joints()) {
-      const std::vector<Index> nodes = bone(n);
-      if (children_[nodes[0]] < 2) continue;
-      const double whole = bone_length(n), ball = half_width(nodes[0]);
-      const double least = children_[n] == 0 ? std::min(ball, 0.5 * whole) : ball;
-      double walked = 0;
-      for (std::size_t i = 1; i + 1 < nodes.size() && walked < least; ++i) {
-        walked += tree_.above[nodes[i]];
-        if (walked >= least && (children_[n] == 0 || whole - walked > 0.5 * ball)) mark(nodes[i]);
-      }
+    for (const Index n : joints())
+      if (children_[bone(n)[0]] >= 2) mark_root_of(n, children_[n] == 0);
+  }
+  void mark_root_of(Index joint, bool is_end) {
+    const std::vector<Index> nodes = bone(joint);
+    const double whole = bone_length(joint), ball = half_width(nodes[0]);
+    const double least = is_end ? std::min(ball, 0.5 * whole) : ball;
+    double walked = 0;
+    for (std::size_t i = 1; i + 1 < nodes.size() && walked < least; ++i) {
+      walked += tree_.above[nodes[i]];
+      if (walked >= least && (is_end || whole - walked > 0.5 * ball)) mark(nodes[i]);
     }
+  }
+  // A junction whose limbs were dropped has become an end, which wants a joint that bends it.
+  void mark_bare_ends() {
+    const std::vector<Index> below = bones_below();
+    for (const Index n : joints())
+      if (below[n] == 0 && children_[n] != 0 && limb_of(n, below).size() == 1) mark_root_of(n, true);
   }
   // Farther from the straight bone than most of the limb's thickness.
   void mark_bends() {
@@ -201,11 +207,17 @@ class JointChoice {
       open.push_back(bend);
     }
   }
+  // Per node how many bones hang on its joint.
+  std::vector<Index> bones_below() const {
+    std::vector<Index> below(marked_.size(), 0);
+    for (const Index n : joints()) ++below[marked_above(tree_, marked_, n)];
+    return below;
+  }
   // The joints from where a limb leaves the body to its end.
-  std::vector<Index> limb_of(Index end) const {
+  std::vector<Index> limb_of(Index end, const std::vector<Index>& below) const {
     std::vector<Index> joints;
-    for (Index n = end; n != tree_.root() && (n == end || children_[n] == 1); n = tree_.parent[n])
-      if (marked_[n]) joints.push_back(n);
+    for (Index n = end; n != tree_.root() && (n == end || below[n] == 1); n = marked_above(tree_, marked_, n))
+      joints.push_back(n);
     std::reverse(joints.begin(), joints.end());
     return joints;
   }
@@ -220,9 +232,10 @@ class JointChoice {
       dropped = std::move(joints);
     };
     std::vector<char> on_limb(marked_.size(), 0);
+    const std::vector<Index> below = bones_below();
     for (const Index n : joints()) {
-      if (children_[n] != 0) continue;
-      const std::vector<Index> limb = limb_of(n);
+      if (below[n] != 0) continue;
+      const std::vector<Index> limb = limb_of(n, below);
       for (const Index k : limb) on_limb[k] = 1;
       if (limb.size() <= 2) consider(bone_length(n) + (limb[0] != n ? bone_length(limb[0]) : 0.0), limb);
       for (std::size_t i = 1; i + 1 < limb.size(); ++i)
