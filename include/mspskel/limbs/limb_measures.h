@@ -48,9 +48,14 @@ struct LimbMeasures {
 // Whether a part is blunter than a right-angled cone. Spikes and fins are deep for their mouths.
 inline bool is_blunt(double depth_over_mouth) { return depth_over_mouth < 1.4142; }
 
-// The same of a part of a plate: the level of a right-angled corner is 2 depth wide on each side of the plate,
-// which makes π / 2; and a tenth more, since arcs beside it bend the level.
-inline bool is_blunt_when_flat(double depth_over_mouth) { return depth_over_mouth < 1.73; }
+// Whether a part of a plate is no sharper than a right-angled corner, by both of its measures. The level of such
+// a corner is 2 depth wide on each side of the plate, which makes π / 2 of depth over mouth and π of slenderness;
+// and a tenth more, since arcs beside it bend the level. Where a twig leaves what the arcs cover, its level may
+// run along all of that and says nothing, but its area does.
+inline bool is_blunt_when_flat(double depth_over_mouth, double slenderness) {
+  constexpr double kRightAngle = 1.1 * 3.14159265358979323846;
+  return depth_over_mouth < 0.5 * kRightAngle && slenderness < kRightAngle;
+}
 
 // A part that is wider than what carries it is thick, as the corners of plates and the rims of walls.
 inline bool is_wider_than_carrier(double half_width, double carrier) { return half_width > 1.25 * carrier; }

@@ -111,7 +111,7 @@ class LimbCompletion {
   // carries it.
   std::optional<PartLevel> limb_level(const SlenderPart& part) const {
     const PartLevel& own = part.slenderest;
-    const bool is_corner = is_blunt_when_flat(own.depth_over_mouth()) &&
+    const bool is_corner = is_blunt_when_flat(own.depth_over_mouth(), own.slenderness()) &&
                            is_wider_than_carrier(own.depth / own.slenderness(), carrier_[part.top]);
     if (own.slenderness() >= uncovered_slenderness(options_) && !is_corner) return own;
     const PartLevel& level = part.narrowest;
