@@ -22,6 +22,11 @@ struct LowerShare {
 // where they are. Ascending by vertex, then by joint. Only of the joints for which `asked` is not 0.
 // O(vertices + n log n) for n vertices and joints that change.
 std::vector<LowerShare> bound_slopes(const SurfaceSnapshot& surface, const Rig& rig,
-                                     const std::vector<BoneShare>& shares, const std::vector<char>& asked);
+                                     const std::vector<BoneShare>& shares);
+
+// Of the joints, of which none hangs on another, those that no vertex follows by half or more once their
+// slopes are bounded.
+std::vector<Index> find_idle(const SurfaceSnapshot& surface, const Rig& rig,
+                             const std::vector<BoneShare>& shares, const std::vector<Index>& joints);
 
 }  // namespace mspskel::detail

@@ -95,80 +95,6 @@ void lay_joints(const CurveSkeleton& skeleton, const SkeletonTree& tree, const s
   }
 }
 
-// Influences of one choice of joints after another, of which most have the shares that they had.
-class Weigher {
- public:
-  Weigher(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton, const SkeletonTree& tree,
-          double blend)
-      : surface_(surface), skeleton_(skeleton), tree_(tree), blend_(blend) {}
-
-  void weigh(Rig& rig) {
-    std::vector<BoneShare> shares = detail::bone_shares(surface_, skeleton_, tree_, rig, blend_);
-    const std::vector<char> asked = find_changed(rig, shares);
-    std::vector<LowerShare> lower = detail::bound_slopes(surface_, rig, shares, asked);
-    keep_unchanged(asked, lower);
-    rig.influences = influences_of(rig, shares, lower);
-    shares_ = std::move(shares);
-    lower_ = std::move(lower);
-    node_of_joint_.clear();
-    for (const RigJoint& joint : rig.joints) node_of_joint_.push_back(joint.node);
-  }
-
- private:
-  // Per joint: whether some vertex follows it otherwise than the time before.
-  std::vector<char> find_changed(const Rig& rig, const std::vector<BoneShare>& shares) {
-    const std::size_t count = rig.joints.size();
-    std::vector<Index> joint_of_node(skeleton_.nodes.size(), kNone);
-    for (std::size_t j = 0; j < count; ++j) joint_of_node[rig.joints[j].node] = static_cast<Index>(j);
-    std::vector<char> changed(count, 1);
-    joint_of_old_.clear();
-    for (const Index node : node_of_joint_) {
-      joint_of_old_.push_back(joint_of_node[node]);
-      if (joint_of_node[node] != kNone) changed[joint_of_node[node]] = 0;
-    }
-    for (std::size_t v = 0; v < shares_.size(); ++v) {
-      const Index old = joint_of_old_[shares_[v].joint];
-      if (BoneShare{old, shares_[v].share} == shares[v]) continue;
-      // Where the old joint is gone, so are the shares that it had.
-      mark_way(rig, shares[v].joint, old, changed);
-      mark_way(rig, old, shares[v].joint, changed);
-    }
-    return changed;
-  }
-  // From `from` up to the joint that carries both, that one too: above it both follow wholly.
-  static void mark_way(const Rig& rig, Index from, Index other, std::vector<char>& changed) {
-    const auto carries = [&](Index joint) {
-      Index j = other;
-      while (j != kNone && j > joint) j = rig.joints[j].parent;
-      return j == joint;
-    };
-    for (Index j = from; j != kNone; j = rig.joints[j].parent) {
-      changed[j] = 1;
-      if (carries(j)) return;
-    }
-  }
-  void keep_unchanged(const std::vector<char>& changed, std::vector<LowerShare>& lower) const {
-    const std::size_t found = lower.size();
-    for (const LowerShare& old : lower_)
-      if (const Index j = joint_of_old_[old.joint]; j != kNone && !changed[j])
-        lower.push_back({old.vertex, j, old.share});
-    std::inplace_merge(lower.begin(), lower.begin() + static_cast<std::ptrdiff_t>(found), lower.end(),
-                       [](const LowerShare& a, const LowerShare& b) {
-                         return a.vertex < b.vertex || (a.vertex == b.vertex && a.joint < b.joint);
-                       });
-  }
-
-  const SurfaceSnapshot& surface_;
-  const CurveSkeleton& skeleton_;
-  const SkeletonTree& tree_;
-  const double blend_;
-  // Of the time before.
-  std::vector<BoneShare> shares_;
-  std::vector<LowerShare> lower_;
-  std::vector<Index> node_of_joint_;
-  std::vector<Index> joint_of_old_;  // the present one at the same node; kNone: none
-};
-
 // Per joint the first of the limb that it is on: what hangs on that one is a chain. kNone: on no limb.
 std::vector<Index> limbs_of(const Rig& rig) {
   const Index count = static_cast<Index>(rig.joints.size());
@@ -181,6 +107,13 @@ std::vector<Index> limbs_of(const Rig& rig) {
     for (Index j = end; j != rig.joints[top].parent; j = rig.joints[j].parent) first[j] = top;
   }
   return first;
+}
+
+std::vector<Index> first_joints(const std::vector<Index>& first) {
+  std::vector<Index> joints;
+  for (std::size_t j = 1; j < first.size(); ++j)
+    if (first[j] == static_cast<Index>(j)) joints.push_back(first[j]);
+  return joints;
 }
 
 // The first joints of limbs that nothing follows more than what they hang on.
@@ -198,8 +131,8 @@ std::vector<Index> idle_limbs(const Rig& rig, const std::vector<Index>& first) {
     if (limb != kNone) followed[limb] = std::max(followed[limb], sum);
   }
   std::vector<Index> idle;
-  for (std::size_t j = 1; j < first.size(); ++j)
-    if (first[j] == static_cast<Index>(j) && followed[j] < 0.5) idle.push_back(first[j]);
+  for (const Index j : first_joints(first))
+    if (followed[j] < 0.5) idle.push_back(j);
   return idle;
 }
 
@@ -234,10 +167,9 @@ void drop_joints(const std::vector<char>& dropped, Rig& rig) {
 }
 
 // Idle limbs are none. Where all that hangs on a joint is idle, the end of one stays, since it gives that
-// joint's bone its length.
-void drop_idle_limbs(Rig& rig) {
+// joint's bone its length. Returns whether a joint was dropped: what is left may be a limb that is idle.
+bool drop_idle_limbs(Rig& rig) {
   const std::vector<Index> first = limbs_of(rig), idle = idle_limbs(rig, first);
-  if (idle.empty()) return;
   std::vector<char> dropped(rig.joints.size(), 0);
   for (std::size_t j = 0; j < first.size(); ++j)
     dropped[j] = first[j] != kNone && std::binary_search(idle.begin(), idle.end(), first[j]) ? 1 : 0;
@@ -252,7 +184,9 @@ void drop_idle_limbs(Rig& rig) {
     dropped[j] = carried;
     carried = 1;
   }
+  if (std::find(dropped.begin(), dropped.end(), 1) == dropped.end()) return false;
   drop_joints(dropped, rig);
+  return true;
 }
 
 }  // namespace
@@ -269,14 +203,15 @@ Rig make_rig(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton, cons
   std::vector<char> marked = detail::choose_joints(skeleton, tree, options.joints);
   Rig rig;
   lay_joints(skeleton, tree, marked, rig);
-  Weigher weigher(surface, skeleton, tree, options.blend);
-  weigher.weigh(rig);
-  const std::vector<Index> idle = idle_limbs(rig, limbs_of(rig));
+  std::vector<BoneShare> shares = detail::bone_shares(surface, skeleton, tree, rig, options.blend);
+  const std::vector<Index> idle = detail::find_idle(surface, rig, shares, first_joints(limbs_of(rig)));
   if (!idle.empty()) {
     for (const Index j : idle) detail::turn_farther_out(tree, rig.joints[j].node, marked);
     lay_joints(skeleton, tree, marked, rig);
-    weigher.weigh(rig);
-    drop_idle_limbs(rig);
+    shares = detail::bone_shares(surface, skeleton, tree, rig, options.blend);
+  }
+  rig.influences = influences_of(rig, shares, detail::bound_slopes(surface, rig, shares));
+  while (drop_idle_limbs(rig)) {
   }
   rig.cut = tree.cut;
   detail::name_joints(rig, surface.frame.scale);

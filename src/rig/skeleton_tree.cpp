@@ -155,8 +155,7 @@ class JointChoice {
   // A junction well within the ball of the one above is the same place.
   void merge_close_junctions() {
     for (const Index n : joints())
-      if (children_[n] > 1 && bone_length(n) < 0.5 * node(marked_above(tree_, marked_, n)).radius)
-        unmark(n);
+      if (children_[n] > 1 && bone_length(n) < 0.5 * node(marked_above(tree_, marked_, n)).radius) unmark(n);
   }
   // What leaves a junction turns where it leaves its ball, and a limb that hardly does so at half its length:
   // each has a joint that bends it.
