@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "mspskel/arcs/detail/arc_points.h"
+#include "mspskel/io/write_mesh.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/mesh/build_mesh.h"
 #include "mspskel/samples/samples.h"
@@ -112,7 +113,8 @@ TEST_CASE("The arc of a thin limb becomes straight where it runs through the thi
   for (Index i = 0; i < static_cast<Index>(truth.nodes.size()); ++i)
     if (degree[i] == 3) joint = i;
   ArcGraph graph;
-  for (const SkeletonNode& node : truth.nodes) graph.add_hub(solid.surface.frame.to_normalised(node.position));
+  for (const SkeletonNode& node : truth.nodes)
+    graph.add_hub(solid.surface.frame.to_normalised(node.position));
   Vector3 along_bar = Vector3::Zero();
   for (Index i = 0; i < static_cast<Index>(truth.nodes.size()); ++i) {
     if (i == joint) continue;
@@ -134,9 +136,30 @@ TEST_CASE("The arc of a thin limb becomes straight where it runs through the thi
   center_arcs(graph, solid.hierarchy, options);
   const Vector3 start = graph.hub_position[joint], axis = (graph.hub_position[tip] - start).normalized();
   double farthest = 0;
-  for (const Vector3& p : graph.arcs[2].points)
-    farthest = std::max(farthest, (p - start).cross(axis).norm());
-  CHECK(farthest < 0.15 * half_width);
+  for (const Vector3& p : graph.arcs[2].points) farthest = std::max(farthest, (p - start).cross(axis).norm());
+  CHECK(farthest < 0.015 * half_width);
+}
+
+TEST_CASE("An arc follows near walls rather than far ones") {
+  // One side of a flat bar wavers, and so does its thickness' middle, by the same.
+  const auto waver = [](double z) { return 0.12 * std::sin(3 * z); };
+  PolygonSoup flat = to_polygon_soup(tube(1, 12, 24, 96));
+  for (Vector3& p : flat.points)
+    p = Vector3(p.x() + (p.x() > 0 ? 2 * p.x() * waver(p.z()) : 0), p.y() / 3 + waver(p.z()), p.z());
+  const Solid solid(to_mesh(flat));
+  ArcGraph graph = arc_along_tube(solid, [](double z) { return Vector3(0, 0, z); });
+  CenteringOptions options;
+  options.rounds = 20;
+  center_arcs(graph, solid.hierarchy, options);
+  double wide = 0, narrow = 0;
+  for (const Vector3& p : graph.arcs[0].points) {
+    const Vector3 x = solid.surface.frame.to_model(p);
+    if (std::abs(x.z() - 6) > 4) continue;
+    wide = std::max(wide, std::abs(x.x()));
+    narrow = std::max(narrow, std::abs(x.y() - waver(x.z())));
+  }
+  CHECK(wide < 0.085);
+  CHECK(narrow < 0.04);
 }
 
 TEST_CASE("The centre line of a torus keeps its loop") {
@@ -211,6 +234,19 @@ TEST_CASE(
     CHECK(off_axis(solid.surface.frame.to_model(section.centre)) < 0.3 * x + 0.01);
   }
   CHECK_FALSE(visible_section(solid.hierarchy, solid.at(3, 0, 6), Vector3::UnitZ(), 64).closed);
+}
+
+TEST_CASE("A section tells where it is wide, seen from anywhere in it") {
+  PolygonSoup ellipse = to_polygon_soup(tube(1, 12, 48, 24));
+  for (Vector3& p : ellipse.points) p.y() *= 0.4;
+  const Solid solid(to_mesh(ellipse));
+  for (const double x : {0.0, 0.3, 0.7}) {
+    const VisibleSection section =
+        visible_section(solid.hierarchy, solid.at(x, 0.1, 6), Vector3::UnitZ(), 64);
+    REQUIRE(section.closed);
+    CHECK(section.narrowness == Approx(0.4).margin(0.02));
+    CHECK(std::abs(section.wide.x()) > 0.99);
+  }
 }
 
 TEST_CASE("Centring can be cancelled, and its options are checked") {

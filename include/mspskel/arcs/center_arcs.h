@@ -41,6 +41,8 @@ struct VisibleSection {
   Vector3 centre = Vector3::Zero();  // where rays in opposite directions balance (to first order)
   double radius = 0.0;               // of the disc of equal area
   double half_width = 0.0;           // see slice/detail/region_moments.h
+  Vector3 wide = Vector3::Zero();    // unit: along its larger principal axis
+  double narrowness = 1.0;           // radius of gyration across `wide` by that along it; 1 for a disc
   double roundness = 0.0;            // 4π·area / perimeter², 1 for a disc
   double clearance = 0.0;            // the shortest ray
   bool closed = false;               // every ray met the surface
@@ -57,16 +59,18 @@ VisibleSection visible_section(const BoundingVolumeHierarchy& solid, const Vecto
 
 // Resamples every arc at options.step, those whose half width is below 0.006 of the extent at steps as much
 // shorter as they are thinner, and centres it in sections across its direction, which is taken over a stretch
-// as long as the solid is thick, less where the arc bends: minimises Σ w|x − c|² + μ Σ|x − mean of
-// neighbours|² over all points, with c the section's centre, w = roundness² / (1 + (|c − x| / 0.7 R)⁴) and
-// μ = smoothness · (distance to the surface / own step)² · (0.008 / options.step)²; leaf ends stay in their
-// section, or where they are if `held` names their hubs; joints are nearly free. Steps that would cut a corner
-// through the surface keep the corner between them. A point moves only as far as its edges stay off the
-// surface, so what is inside stays inside, and as far as no edge sweeps over a handle, so cycles keep their
-// classes.
-// A round that would make the arcs half as long again as they began, and ten steps, is the end: where there
-// is hardly any thickness, neighbouring points do not hold each other, and arcs grow with every round. Cost:
-// O(points · rays · log faces) a round. Throws UsageError, Cancelled.
+// as long as the solid is thick, less where the arc bends: minimises Σ (x − c)ᵀ W (x − c) + μ Σ|x − mean of
+// neighbours|² over all points, with c the section's centre, W = w across the arc and along it and
+// w · narrowness where the section is wide, w = roundness² / (1 + (|c − x| / 0.7 R)⁴) and
+// μ = smoothness · (distance to the surface / own step)² · (0.008 / options.step)². So an arc keeps to the
+// middle between near walls and is straight between far ones. Near a joint, within 1.7 radii of its ball,
+// sections are those of what the arc leaves, so W falls to 0 there with the distance. Leaf ends stay in their
+// section, or where they are if `held` names their hubs; joints are nearly free. Steps that would cut a
+// corner through the surface keep the corner between them. A point moves only as far as its edges stay off
+// the surface, so what is inside stays inside, and as far as no edge sweeps over a handle, so cycles keep
+// their classes. A round that would make the arcs half as long again as they began, and ten steps, is the
+// end: where there is hardly any thickness, neighbouring points do not hold each other, and arcs grow with
+// every round. Cost: O(points · rays · log faces) a round. Throws UsageError, Cancelled.
 void center_arcs(ArcGraph& graph, const BoundingVolumeHierarchy& solid, const CenteringOptions& options,
                  const Execution& execution = {}, const CrossingLabels& crossings = {},
                  const std::vector<Index>& held = {});

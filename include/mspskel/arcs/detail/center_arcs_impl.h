@@ -37,8 +37,8 @@ inline std::size_t reach_of_direction(const std::vector<Vector3>& line, double s
   return std::max<std::size_t>(reach, 1);
 }
 
-// Per point the distance to the surface: at every fourth point of a chain, and in proportion between, which is
-// right to a step or two. Cost: a query for each fourth point.
+// Per point the distance to the surface: at every fourth point of a chain, and in proportion between, which
+// is right to a step or two. Cost: a query for each fourth point.
 inline std::vector<double> thickness_at(const ArcPoints& points, const BoundingVolumeHierarchy& solid,
                                         const Execution& execution) {
   constexpr std::size_t kEvery = 4;
@@ -63,8 +63,8 @@ inline std::vector<double> thickness_at(const ArcPoints& points, const BoundingV
   return thickness;
 }
 
-// Unit tangents of inner points and leaf ends from a smoothed copy of the chains; zero elsewhere. `thickness`:
-// per point the distance to the surface.
+// Unit tangents of inner points and leaf ends from a smoothed copy of the chains; zero elsewhere.
+// `thickness`: per point the distance to the surface.
 inline std::vector<Vector3> smooth_tangents(const ArcPoints& points, const std::vector<double>& thickness,
                                             int smoothing) {
   std::vector<Vector3> tangent(points.x.size(), Vector3::Zero());
@@ -115,9 +115,16 @@ constexpr double kHeldWeight = 1e9;
 
 struct Pull {
   Vector3 goal = Vector3::Zero();
-  double weight = 0.0;
+  Eigen::Matrix3d weight = Eigen::Matrix3d::Zero();
   double stiffness = 1.0;
 };
+
+inline Pull even_pull(const Vector3& goal, double weight) {
+  return {goal, weight * Eigen::Matrix3d::Identity(), 1.0};
+}
+
+// Of a point that nothing pulls.
+constexpr double kFreeWeight = 1e-3;
 
 // Inner points between two others of their chain whose sections a round leaves out, every second one; they
 // take turns, so that all are seen.
@@ -141,13 +148,36 @@ inline Pull pull_between(const ArcPoints& points, const std::vector<Pull>& pulls
 inline Pull section_pull(const BoundingVolumeHierarchy& solid, const Vector3& x, const Vector3& tangent,
                          const Vector3& start, double share, const CenteringOptions& options) {
   const VisibleSection section = visible_section(solid, x, tangent, start, options.rays);
-  if (!section.closed || section.radius <= 0) return {x, 1e-3, 1.0};
+  if (!section.closed || section.radius <= 0) return even_pull(x, kFreeWeight);
   const double move = (section.centre - x).norm() / (0.7 * section.radius);
   // A second difference grows with the square of the step; the reference makes the curve independent of it.
   constexpr double kReferenceStep = 0.008;
   const double thickness = section.clearance * kReferenceStep / (options.step * options.step * share);
-  return {section.centre, section.roundness * section.roundness / (1 + std::pow(move, 4)),
-          thickness * thickness};
+  const double weight = section.roundness * section.roundness / (1 + std::pow(move, 4));
+  const Eigen::Matrix3d less = (1 - section.narrowness) * section.wide * section.wide.transpose();
+  return {section.centre, weight * (Eigen::Matrix3d::Identity() - less), thickness * thickness};
+}
+
+// Near a joint a section is that of the part which the arc leaves, and says nothing of where it runs: there
+// weights fall with the distance.
+inline void loosen_near_joints(const ArcPoints& points, const BoundingVolumeHierarchy& solid,
+                               const Execution& execution, std::vector<Pull>& pulls) {
+  constexpr double kReach = 1.7;  // radii of the joint's ball
+  std::vector<double> reach(points.x.size(), 0.0);
+  parallel_for(
+      points.count(), "arcs", execution, [] { return 0; },
+      [&](Index i, int) {
+        if (points.next[i].size() > 2) reach[i] = kReach * solid.distance(points.x[i]);
+      });
+  for (const auto& chain : points.chains) {
+    if (chain.empty()) continue;
+    for (const Index joint : {chain.front(), chain.back()})
+      for (const Index i : chain) {
+        if (points.kind[i] != ArcPoints::Kind::kInner) continue;
+        const double distance = (points.x[i] - points.x[joint]).norm();
+        if (distance < reach[joint]) pulls[i].weight *= std::max(kFreeWeight, distance / reach[joint]);
+      }
+  }
 }
 
 // The place of each point in the elimination: inner points of the chains, then those beside a hub, then hubs.
@@ -168,44 +198,45 @@ inline std::vector<Index> elimination_order(const ArcPoints& points) {
   return order;
 }
 
-// Minimises Σ w|x − goal|² + Σ μ|x − mean of neighbours|² with μ = smoothness · stiffness.
+// Minimises Σ (x − goal)ᵀ W (x − goal) + Σ μ|x − mean of neighbours|² with μ = smoothness · stiffness.
 inline std::vector<Vector3> solve_positions(const ArcPoints& points, const std::vector<Pull>& pulls,
                                             double smoothness) {
   using Triplet = Eigen::Triplet<double>;
   const Index n = points.count();
   const std::vector<Index> row = elimination_order(points);
   std::vector<Triplet> entries;
-  Eigen::MatrixX3d right(n, 3);
+  Eigen::MatrixXd right(3 * n, 1), guess(3 * n, 1);
+  const auto add = [&](Index i, Index j, double value) {
+    for (Index k = 0; k < 3; ++k) entries.emplace_back(3 * row[i] + k, 3 * row[j] + k, value);
+  };
   for (Index i = 0; i < n; ++i) {
-    const double w = std::max(pulls[i].weight, 1e-9);
-    entries.emplace_back(row[i], row[i], w);
-    right.row(row[i]) = w * pulls[i].goal.transpose();
+    const Eigen::Matrix3d weight = pulls[i].weight + 1e-9 * Eigen::Matrix3d::Identity();
+    for (Index k = 0; k < 3; ++k)
+      for (Index l = 0; l < 3; ++l) entries.emplace_back(3 * row[i] + k, 3 * row[i] + l, weight(k, l));
+    right.block<3, 1>(3 * row[i], 0) = weight * pulls[i].goal;
+    guess.block<3, 1>(3 * row[i], 0) = points.x[i];
     const auto& next = points.next[i];
     if (next.size() < 2) continue;
     const double mu =
         smoothness * pulls[i].stiffness * (points.kind[i] == ArcPoints::Kind::kInner ? 1.0 : 0.3);
     // Row r = e_i − Σ e_j / k; its outer product enters the matrix.
     const double k = static_cast<double>(next.size());
-    entries.emplace_back(row[i], row[i], mu);
+    add(i, i, mu);
     for (const Index a : next) {
-      entries.emplace_back(row[i], row[a], -mu / k);
-      entries.emplace_back(row[a], row[i], -mu / k);
-      for (const Index b : next) entries.emplace_back(row[a], row[b], mu / (k * k));
+      add(i, a, -mu / k);
+      add(a, i, -mu / k);
+      for (const Index b : next) add(a, b, mu / (k * k));
     }
   }
-  Eigen::SparseMatrix<double> matrix(n, n);
+  Eigen::SparseMatrix<double> matrix(3 * n, 3 * n);
   matrix.setFromTriplets(entries.begin(), entries.end());
   constexpr Index kFewJoints = 128;  // among more than that, elimination fills in
   const auto joints = std::count(points.kind.begin(), points.kind.end(), ArcPoints::Kind::kJoint);
-  Eigen::MatrixX3d guess(n, 3);
-  for (Index i = 0; i < n; ++i) guess.row(row[i]) = points.x[i].transpose();
-  const auto solved = joints > kFewJoints
-                          ? solve_large(matrix, right, guess)
-                          : solve_by_elimination<Eigen::NaturalOrdering<int>>(matrix, right);
+  const auto solved = joints > kFewJoints ? solve_large(matrix, right, guess)
+                                          : solve_by_elimination<Eigen::NaturalOrdering<int>>(matrix, right);
   if (!solved) return points.x;
-  const Eigen::MatrixX3d& solution = *solved;
   std::vector<Vector3> x(points.x.size());
-  for (Index i = 0; i < n; ++i) x[i] = solution.row(row[i]).transpose();
+  for (Index i = 0; i < n; ++i) x[i] = solved->block<3, 1>(3 * row[i], 0);
   return x;
 }
 
@@ -244,6 +275,9 @@ MSPSKEL_INLINE VisibleSection visible_section(const BoundingVolumeHierarchy& sol
   section.centre = x + 2.0 / rays * (sum_u * u + sum_w * w);
   section.radius = std::sqrt(area / kPi);
   section.half_width = moments.half_width();
+  const detail::RegionMoments::Axes axes = moments.axes();
+  section.wide = std::cos(axes.angle) * u + std::sin(axes.angle) * w;
+  section.narrowness = axes.larger > 0 ? std::sqrt(axes.smaller / axes.larger) : 1.0;
   section.roundness = perimeter > 0 ? 4 * kPi * area / (perimeter * perimeter) : 0.0;
   return section;
 }
@@ -282,17 +316,18 @@ MSPSKEL_INLINE void center_arcs(ArcGraph& graph, const BoundingVolumeHierarchy& 
         points.count(), "arcs", execution, [] { return 0; },
         [&](Index i, int) {
           using Kind = detail::ArcPoints::Kind;
-          pulls[i] = {points.x[i], 1e-3, 1.0};
+          pulls[i] = detail::even_pull(points.x[i], detail::kFreeWeight);
           if (points.kind[i] == Kind::kDead || points.kind[i] == Kind::kJoint || left_out[i]) return;
           if (!tangent[i].isZero())
             pulls[i] = detail::section_pull(solid, points.x[i], tangent[i], first_ray[i], share[i], options);
-          if (points.kind[i] == Kind::kLeaf) pulls[i].weight = 0.5;
+          if (points.kind[i] == Kind::kLeaf) pulls[i].weight = 0.5 * Eigen::Matrix3d::Identity();
         });
     for (Index i = 0; i < points.count(); ++i)
       if (left_out[i]) pulls[i] = detail::pull_between(points, pulls, i);
+    detail::loosen_near_joints(points, solid, execution, pulls);
     for (const Index hub : held)
       if (points.kind[hub] == detail::ArcPoints::Kind::kLeaf)
-        pulls[hub] = {points.x[hub], detail::kHeldWeight, 1.0};
+        pulls[hub] = detail::even_pull(points.x[hub], detail::kHeldWeight);
     const auto solution = detail::solve_positions(points, pulls, options.smoothness);
     std::vector<Vector3> goal(points.x);
     for (Index i = 0; i < points.count(); ++i)

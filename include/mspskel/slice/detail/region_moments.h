@@ -24,11 +24,19 @@ class RegionMoments {
 
   // Half the longer side of a rectangle with the larger principal moment of the region: √3 radii of gyration,
   // √3/2 radii of a disc; 0 for a region without area.
-  double half_width() const {
-    if (area_ == 0) return 0.0;
+  double half_width() const { return std::sqrt(3 * axes().larger); }
+
+  // Principal moments about the region's own centre, per area, and the way from x to y, in radians, to the
+  // axis along which the region is widest. All 0 for a region without area.
+  struct Axes {
+    double larger = 0, smaller = 0, angle = 0;
+  };
+  Axes axes() const {
+    if (area_ == 0) return {};
     const double x = x_ / area_, y = y_ / area_;
     const double xx = xx_ / area_ - x * x, xy = xy_ / area_ - x * y, yy = yy_ / area_ - y * y;
-    return std::sqrt(std::max(0.0, 3 * ((xx + yy) / 2 + std::hypot((xx - yy) / 2, xy))));
+    const double mean = (xx + yy) / 2, half = std::hypot((xx - yy) / 2, xy);
+    return {std::max(0.0, mean + half), std::max(0.0, mean - half), 0.5 * std::atan2(2 * xy, xx - yy)};
   }
 
  private:
