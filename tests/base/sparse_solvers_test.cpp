@@ -53,3 +53,46 @@ TEST_CASE("Steps end where elimination does, on grids with springs of any stiffn
     CHECK(solve_large(matrix, std::numeric_limits<double>::infinity() * goal, guess).has_value());
   }
 }
+
+TEST_CASE("Coupled coordinates are solved in steps with factors of what they have in common") {
+  for (const bool has_many_cycles : {false, true}) {
+    Random random(5);
+    constexpr int kPoints = 200;
+    std::vector<Eigen::Triplet<double>> coupled_entries, even_entries;
+    const auto add = [&](int i, int j, double value) {
+      even_entries.emplace_back(i, j, value);
+      for (int k = 0; k < 3; ++k) coupled_entries.emplace_back(3 * i + k, 3 * j + k, value);
+    };
+    Eigen::VectorXd right(3 * kPoints), guess(3 * kPoints);
+    for (int i = 0; i < kPoints; ++i) {
+      const Vector3 weak = random.in_ball().normalized();
+      const Eigen::Matrix3d weight =
+          random.uniform(0.01, 1.0) * (Eigen::Matrix3d::Identity() - 0.99 * weak * weak.transpose());
+      even_entries.emplace_back(i, i, weight.trace() / 3);
+      for (int k = 0; k < 3; ++k)
+        for (int l = 0; l < 3; ++l) coupled_entries.emplace_back(3 * i + k, 3 * i + l, weight(k, l));
+      right.segment<3>(3 * i) = weight * random.in_ball();
+      guess.segment<3>(3 * i) = random.in_ball();
+      for (const int j : {i + 1, has_many_cycles ? (i * 7) % kPoints : i}) {
+        if (j >= kPoints || j == i) continue;
+        const double spring = random.uniform(0.01, 100.0);
+        add(i, i, spring);
+        add(j, j, spring);
+        add(i, j, -spring);
+        add(j, i, -spring);
+      }
+    }
+    Eigen::SparseMatrix<double> coupled(3 * kPoints, 3 * kPoints), even(kPoints, kPoints);
+    coupled.setFromTriplets(coupled_entries.begin(), coupled_entries.end());
+    even.setFromTriplets(even_entries.begin(), even_entries.end());
+    const auto solution = solve_coupled(coupled, even, right, guess, has_many_cycles);
+    REQUIRE(solution);
+    CHECK((right - coupled * *solution).norm() <= 1.1e-5 * (right - coupled * guess).norm());
+    CHECK(*solve_coupled(coupled, even, right, guess, has_many_cycles) == *solution);
+    // Where steps find no end, as from a guess that is not finite, elimination answers.
+    const auto exact =
+        solve_coupled(coupled, even, right, std::numeric_limits<double>::infinity() * guess, has_many_cycles);
+    REQUIRE(exact);
+    CHECK((right - coupled * *exact).norm() < 1e-9 * right.norm());
+  }
+}

@@ -1,5 +1,4 @@
-// Symmetric positive definite sparse systems with one or more right sides: by elimination, or in steps where
-// the factors would fill in.
+// Symmetric positive definite sparse systems: by elimination, or in steps where the factors would fill in.
 #pragma once
 
 #include <Eigen/IterativeLinearSolvers>
@@ -9,26 +8,25 @@
 
 namespace mspskel {
 
-// The solution of matrix · x = right by its LDLᵀ factors in this ordering; nothing if rounding leaves no
-// factors. Only the lower triangle is read. Costs what the factors hold, which for a graph of many cycles
-// grows with the square of its size.
-template <class Ordering = Eigen::AMDOrdering<int>>
-std::optional<Eigen::MatrixXd> solve_by_elimination(const Eigen::SparseMatrix<double>& matrix,
-                                                    const Eigen::MatrixXd& right) {
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Ordering> solver(matrix);
+// The solution of matrix · x = right by its LDLᵀ factors; nothing if rounding leaves no factors.
+// Only the lower triangle is read. Costs what the factors hold, which for a graph of many cycles grows with
+// the square of its size.
+inline std::optional<Eigen::MatrixX3d> solve_by_elimination(const Eigen::SparseMatrix<double>& matrix,
+                                                            const Eigen::MatrixX3d& right) {
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(matrix);
   if (solver.info() != Eigen::Success) return std::nullopt;
-  return Eigen::MatrixXd(solver.solve(right));
+  return Eigen::MatrixX3d(solver.solve(right));
 }
 
-// Solves matrix · x = right for each right side in steps from a guess, until what is left of the right
+// Solves matrix · x = right for three right sides in steps from a guess, until what is left of the right
 // sides is 1e-8 of what the guess leaves. Nothing if that takes more than 200 steps. For graphs with many
 // cycles, whose exact factors grow with the square of their size: this costs O(entries) a step, and a few
 // steps where the matrix is positive definite. The incomplete LU factors hold three times the matrix;
 // incomplete Cholesky factors, which hold no more than the matrix, take a hundred times the steps where arcs
 // are stiff, so the method is BiCGSTAB although the matrix is symmetric.
-inline std::optional<Eigen::MatrixXd> solve_by_steps(const Eigen::SparseMatrix<double>& matrix,
-                                                     const Eigen::MatrixXd& right,
-                                                     const Eigen::MatrixXd& guess) {
+inline std::optional<Eigen::MatrixX3d> solve_by_steps(const Eigen::SparseMatrix<double>& matrix,
+                                                      const Eigen::MatrixX3d& right,
+                                                      const Eigen::MatrixX3d& guess) {
   Eigen::BiCGSTAB<Eigen::SparseMatrix<double>, Eigen::IncompleteLUT<double>> solver;
   solver.preconditioner().setDroptol(1e-4);
   solver.preconditioner().setFillfactor(3);
@@ -36,18 +34,98 @@ inline std::optional<Eigen::MatrixXd> solve_by_steps(const Eigen::SparseMatrix<d
   solver.setMaxIterations(200);
   solver.compute(matrix);
   if (solver.info() != Eigen::Success) return std::nullopt;
-  const Eigen::MatrixXd left = right - matrix * guess;
-  const Eigen::MatrixXd way = solver.solve(left);
+  const Eigen::MatrixX3d left = right - matrix * guess;
+  const Eigen::MatrixX3d way = solver.solve(left);
   if (solver.info() != Eigen::Success || !way.allFinite()) return std::nullopt;
   return guess + way;
 }
 
 // In steps, and by elimination where too many were needed.
-inline std::optional<Eigen::MatrixXd> solve_large(const Eigen::SparseMatrix<double>& matrix,
-                                                  const Eigen::MatrixXd& right,
-                                                  const Eigen::MatrixXd& guess) {
+inline std::optional<Eigen::MatrixX3d> solve_large(const Eigen::SparseMatrix<double>& matrix,
+                                                   const Eigen::MatrixX3d& right,
+                                                   const Eigen::MatrixX3d& guess) {
   if (auto solution = solve_by_steps(matrix, right, guess)) return solution;
   return solve_by_elimination(matrix, right);
+}
+
+namespace detail {
+
+// A preconditioner that solves for each of three coordinates, which lie side by side, by the same factors.
+template <class Factors>
+class EachCoordinate {
+ public:
+  void set(const Factors& factors) { factors_ = &factors; }
+
+  template <class Matrix>
+  EachCoordinate& analyzePattern(const Matrix&) {
+    return *this;
+  }
+  template <class Matrix>
+  EachCoordinate& factorize(const Matrix&) {
+    return *this;
+  }
+  template <class Matrix>
+  EachCoordinate& compute(const Matrix&) {
+    return *this;
+  }
+  template <class Right>
+  Eigen::VectorXd solve(const Eigen::MatrixBase<Right>& right) const {
+    const Eigen::VectorXd side_by_side = right;
+    const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>> rows(
+        side_by_side.data(), side_by_side.size() / 3, 3);
+    const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> solution =
+        factors_->solve(Eigen::MatrixX3d(rows));
+    return Eigen::Map<const Eigen::VectorXd>(solution.data(), solution.size());
+  }
+  Eigen::ComputationInfo info() const { return Eigen::Success; }
+
+ private:
+  const Factors* factors_ = nullptr;
+};
+
+template <class Factors>
+std::optional<Eigen::VectorXd> solve_coupled_by_steps(const Eigen::SparseMatrix<double>& coupled,
+                                                      const Eigen::VectorXd& right,
+                                                      const Eigen::VectorXd& guess, const Factors& factors) {
+  if (factors.info() != Eigen::Success) return std::nullopt;
+  Eigen::BiCGSTAB<Eigen::SparseMatrix<double>, EachCoordinate<Factors>> solver;
+  solver.preconditioner().set(factors);
+  solver.setTolerance(1e-5);
+  solver.setMaxIterations(200);
+  solver.compute(coupled);
+  const Eigen::VectorXd way = solver.solve(right - coupled * guess);
+  if (solver.info() != Eigen::Success || !way.allFinite()) return std::nullopt;
+  return guess + way;
+}
+
+}  // namespace detail
+
+// Solves coupled · x = right, where three rows of `coupled`, one for each coordinate, stand for each row of
+// `even`, which is nearly what `coupled` is, for each coordinate alike, in an order in which a line fills in
+// nothing: in steps from the guess with factors of
+// `even`, incomplete ones where it has many cycles, until what is left of the right side is 1e-5 of what the
+// guess leaves. Factors of `coupled` would take nine times the room and more of the time. Elimination where
+// too many steps were needed; nothing if rounding leaves no factors.
+inline std::optional<Eigen::VectorXd> solve_coupled(const Eigen::SparseMatrix<double>& coupled,
+                                                    const Eigen::SparseMatrix<double>& even,
+                                                    const Eigen::VectorXd& right,
+                                                    const Eigen::VectorXd& guess, bool has_many_cycles) {
+  std::optional<Eigen::VectorXd> solution;
+  if (has_many_cycles) {
+    Eigen::IncompleteLUT<double> factors;
+    factors.setDroptol(1e-4);
+    factors.setFillfactor(3);
+    factors.compute(even);
+    solution = detail::solve_coupled_by_steps(coupled, right, guess, factors);
+  } else {
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::NaturalOrdering<int>>
+        factors(even);
+    solution = detail::solve_coupled_by_steps(coupled, right, guess, factors);
+  }
+  if (solution) return solution;
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(coupled);
+  if (factors.info() != Eigen::Success) return std::nullopt;
+  return Eigen::VectorXd(factors.solve(right));
 }
 
 }  // namespace mspskel

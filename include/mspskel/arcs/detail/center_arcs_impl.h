@@ -204,17 +204,20 @@ inline std::vector<Vector3> solve_positions(const ArcPoints& points, const std::
   using Triplet = Eigen::Triplet<double>;
   const Index n = points.count();
   const std::vector<Index> row = elimination_order(points);
-  std::vector<Triplet> entries;
-  Eigen::MatrixXd right(3 * n, 1), guess(3 * n, 1);
+  std::vector<Triplet> coupled_entries, even_entries;
+  Eigen::VectorXd right(3 * n), guess(3 * n);
   const auto add = [&](Index i, Index j, double value) {
-    for (Index k = 0; k < 3; ++k) entries.emplace_back(3 * row[i] + k, 3 * row[j] + k, value);
+    even_entries.emplace_back(row[i], row[j], value);
+    for (Index k = 0; k < 3; ++k) coupled_entries.emplace_back(3 * row[i] + k, 3 * row[j] + k, value);
   };
   for (Index i = 0; i < n; ++i) {
     const Eigen::Matrix3d weight = pulls[i].weight + 1e-9 * Eigen::Matrix3d::Identity();
+    even_entries.emplace_back(row[i], row[i], weight.trace() / 3);
     for (Index k = 0; k < 3; ++k)
-      for (Index l = 0; l < 3; ++l) entries.emplace_back(3 * row[i] + k, 3 * row[i] + l, weight(k, l));
-    right.block<3, 1>(3 * row[i], 0) = weight * pulls[i].goal;
-    guess.block<3, 1>(3 * row[i], 0) = points.x[i];
+      for (Index l = 0; l < 3; ++l)
+        coupled_entries.emplace_back(3 * row[i] + k, 3 * row[i] + l, weight(k, l));
+    right.segment<3>(3 * row[i]) = weight * pulls[i].goal;
+    guess.segment<3>(3 * row[i]) = points.x[i];
     const auto& next = points.next[i];
     if (next.size() < 2) continue;
     const double mu =
@@ -228,15 +231,15 @@ inline std::vector<Vector3> solve_positions(const ArcPoints& points, const std::
       for (const Index b : next) add(a, b, mu / (k * k));
     }
   }
-  Eigen::SparseMatrix<double> matrix(3 * n, 3 * n);
-  matrix.setFromTriplets(entries.begin(), entries.end());
+  Eigen::SparseMatrix<double> coupled(3 * n, 3 * n), even(n, n);
+  coupled.setFromTriplets(coupled_entries.begin(), coupled_entries.end());
+  even.setFromTriplets(even_entries.begin(), even_entries.end());
   constexpr Index kFewJoints = 128;  // among more than that, elimination fills in
   const auto joints = std::count(points.kind.begin(), points.kind.end(), ArcPoints::Kind::kJoint);
-  const auto solved = joints > kFewJoints ? solve_large(matrix, right, guess)
-                                          : solve_by_elimination<Eigen::NaturalOrdering<int>>(matrix, right);
+  const auto solved = solve_coupled(coupled, even, right, guess, joints > kFewJoints);
   if (!solved) return points.x;
   std::vector<Vector3> x(points.x.size());
-  for (Index i = 0; i < n; ++i) x[i] = solved->block<3, 1>(3 * row[i], 0);
+  for (Index i = 0; i < n; ++i) x[i] = solved->segment<3>(3 * row[i]);
   return x;
 }
 
