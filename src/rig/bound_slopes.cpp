@@ -175,10 +175,11 @@ class Slopes {
     // has at its foot, or the edge's ends to what makes the foot fit the corner, the higher end first.
     const auto over_face = [&](Index h) {
       if (h == kNone) return;
-      const Foot foot = foot_of(h, joint);
       const Index from = surface_.origin[h], to = surface_.target(h), corner = surface_.apex(h);
       const double p = smooth_share(present(from)), q = smooth_share(present(to)),
                    x = smooth_share(present(corner));
+      if (p == x && q == x) return;
+      const Foot foot = foot_of(h, joint);
       const double at_foot = foot.between(p, q), high = x + foot.most;
       if (x > at_foot + foot.most + kLeastStep) lower_to(corner, share_of_weight(at_foot + foot.most));
       if (at_foot <= high + kLeastStep) return;
