@@ -153,7 +153,7 @@ inline Pull section_pull(const BoundingVolumeHierarchy& solid, const Vector3& x,
   // A second difference grows with the square of the step; the reference makes the curve independent of it.
   constexpr double kReferenceStep = 0.008;
   const double thickness = section.clearance * kReferenceStep / (options.step * options.step * share);
-  const double weight = section.roundness * section.roundness / (1 + std::pow(move, 4));
+  const double weight = std::pow(section.roundness, 1.5) / (1 + std::pow(move, 4));
   const Eigen::Matrix3d less = (1 - section.narrowness) * section.wide * section.wide.transpose();
   return {section.centre, weight * (Eigen::Matrix3d::Identity() - less), thickness * thickness};
 }
