@@ -6,6 +6,7 @@
 
 #include "crossing_shells.h"
 #include "disjoint_sets.h"
+#include "merge_short_edges.h"
 #include "mspskel/base/error.h"
 #include "mspskel/mesh/build_mesh.h"
 #include "shell_grid.h"
@@ -82,6 +83,7 @@ std::optional<WholePieces> unite(const SurfaceSnapshot& surface, const std::vect
     if (pieces.solids > 0 && (!best || faults(pieces) < faults(*best))) best = std::move(pieces);
   }
   if (best && best->genus > own + static_cast<Index>(members.size())) best.reset();
+  if (best) best->soup = detail::without_short_edges(best->soup, detail::kShortEdge * cell);
   return best;
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "mspskel/base/error.h"
+#include "merge_short_edges.h"
 #include "outside_flood.h"
 #include "point_tree.h"
 #include "tetrahedron_cutter.h"
@@ -160,7 +161,7 @@ WrappedSoup wrap_soup(const PolygonSoup& soup, const WrapOptions& options, const
   detail::WholePieces pieces = detail::without_crumbs(surface_of(flood));
   wrapped.small_components = pieces.crumbs;
   wrapped.solids = pieces.solids;
-  wrapped.soup = std::move(pieces.soup);
+  wrapped.soup = detail::without_short_edges(pieces.soup, detail::kShortEdge * wrapped.cell);
   wrapped.vertex_of_point = nearest_vertices(soup, wrapped);
   return wrapped;
 }

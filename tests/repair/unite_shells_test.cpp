@@ -49,6 +49,11 @@ TEST_CASE("bars that cross are one solid with the volume of their union, and the
   CHECK(report.signed_volume == Approx(6 + 3.84 - 0.64).epsilon(0.02));
   for (std::size_t v = 0; v < bars.points.size(); ++v)
     CHECK((united->soup.points[united->vertex_of[v]] - bars.points[v]).norm() < 2 * united->cell);
+  const SurfaceSnapshot surface = make_snapshot(build_mesh(united->soup));
+  Index short_edges = 0;
+  for (Index h = 0; h < surface.halfedge_count(); ++h)
+    short_edges += surface.edge_length(h) * surface.frame.scale < 0.4 * united->cell;
+  CHECK(short_edges < surface.halfedge_count() / 20);
 }
 
 TEST_CASE("a handle that is a shell of its own gives the pot a handle") {

@@ -6,6 +6,7 @@
 
 #include "mspskel/base/error.h"
 #include "mspskel/mesh/build_mesh.h"
+#include "mspskel/mesh/coarsen_surface.h"
 #include "mspskel/samples/samples.h"
 #include "support/soups.h"
 
@@ -183,6 +184,28 @@ TEST_CASE("Shells are walls where they shut in more than they fill") {
   for (const Shells* open : {&tub, &bars}) {
     options.filled = open->filled;
     CHECK_FALSE(wrap_soup(open->soup, options).encloses);
+  }
+}
+
+TEST_CASE("Plane walls of a wrap are cut to no slivers, which would keep a surface from being coarsened") {
+  // A cross of plates along the grid's axes, and one aslant to them.
+  const PolygonSoup plates = together(
+      {box({-2, -1.5, -0.02}, {2, 1.5, 0.02}), box({-0.02, -1.2, -1}, {0.02, 1.2, 1})});
+  PolygonSoup aslant = plates;
+  for (Vector3& p : aslant.points) p = Vector3(p.x() - 0.3 * p.y(), p.y() + 0.2 * p.z(), p.z() + 0.4 * p.x());
+  for (const PolygonSoup& soup : {plates, aslant}) {
+    const WrappedSoup wrapped = wrap_soup(soup);
+    const Shape shape = shape_of(wrapped.soup);
+    CHECK(shape.components == 1);
+    CHECK(shape.genus == 0);
+    const SurfaceSnapshot surface = make_snapshot(build_mesh(wrapped.soup));
+    Index short_edges = 0;
+    for (Index h = 0; h < surface.halfedge_count(); ++h)
+      short_edges += surface.edge_length(h) * surface.frame.scale < 0.4 * wrapped.cell;
+    CHECK(short_edges < surface.halfedge_count() / 20);
+    CoarseningOptions options;
+    options.vertices = surface.vertex_count() / 8;
+    CHECK(coarsen_surface(surface, options).surface.vertex_count() == options.vertices);
   }
 }
 

@@ -40,6 +40,7 @@ class CollapsingSurface {
 
   double& cost(Index h) { return cost_[std::min(h, twin_[h])]; }
   double evaluate(Index h) const;
+  double edge_length(Index h) const { return (position_[origin_[h]] - position_[origin_[twin_[h]]]).norm(); }
 
   void start_pass() { std::fill(moved_.begin(), moved_.end(), 0); }
   bool moved(Index h) const { return moved_[origin_[h]] || moved_[origin_[twin_[h]]]; }
