@@ -51,10 +51,10 @@ void keep_one_copy(const FaceSet& faces, std::vector<char>& keep, std::vector<ch
 
 }  // namespace
 
-FaceSet distinct_faces(const FaceSet& faces, Index point_count, MendCounts& counts) {
+DistinctFaces distinct_faces(const FaceSet& faces, Index point_count, MendCounts& counts) {
   std::vector<char> keep(faces.count(), 0), marked(faces.count(), 0);
   keep_one_copy(faces, keep, marked, counts);
-  if (counts.repeated_faces == 0) return faces;
+  if (counts.repeated_faces == 0) return {faces, {}};
   const FaceSet distinct = kept_faces(faces, keep);
   std::vector<char> two_sided;
   for (Index f = 0; f < faces.count(); ++f)
@@ -80,13 +80,16 @@ FaceSet distinct_faces(const FaceSet& faces, Index point_count, MendCounts& coun
     for (const HalfedgeEnd* e = first; e != last; ++e)
       if (two_sided[e->halfedge / 3]) votes[groups.root(e->halfedge / 3)] += others % 2 == 0 ? 1 : -1;
   });
-  std::vector<char> wanted(distinct.count(), 1);
+  std::vector<char> wanted(distinct.count(), 1), cancelled(distinct.count(), 0);
   for (Index f = 0; f < distinct.count(); ++f)
-    if (two_sided[f] && votes[groups.root(f)] > 0) wanted[f] = 0;
-  const auto cancelled = static_cast<Index>(std::count(wanted.begin(), wanted.end(), 0));
-  counts.two_sided_faces += cancelled;
-  counts.repeated_faces -= cancelled;
-  return kept_faces(distinct, wanted);
+    if (two_sided[f] && votes[groups.root(f)] > 0) {
+      wanted[f] = 0;
+      cancelled[f] = 1;
+    }
+  DistinctFaces result{kept_faces(distinct, wanted), kept_faces(distinct, cancelled)};
+  counts.two_sided_faces += result.cancelled.count();
+  counts.repeated_faces -= result.cancelled.count();
+  return result;
 }
 
 namespace {

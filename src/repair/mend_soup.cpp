@@ -30,14 +30,14 @@ class Mending {
   MendedSoup run() {
     weld();
     faces_ = detail::clean_faces(soup_, point_of_, counts().degenerate_faces);
-    faces_ = detail::distinct_faces(faces_, point_count(), counts());
+    keep_distinct_faces();
     stitch();
     faces_ = detail::without_flaps(points_, faces_, counts());
     twin_ = detail::pair_faces(points_, faces_, counts());
     wall_count_ = faces_.count();
     close_loops();
-    counts().joined_pieces =
-        detail::join_touching_pieces(points_, faces_, wall_count_, options_.touching_part, twin_);
+    counts().joined_pieces = detail::join_touching_pieces(points_, cancelled_, wall_count_,
+                                                          options_.touching_part, faces_, twin_);
     finish();
     return std::move(mended_);
   }
@@ -92,7 +92,13 @@ class Mending {
     faces_ = detail::clean_faces(soup_, point_of_, degenerate);
     counts().degenerate_faces = degenerate;
     counts().repeated_faces = counts().two_sided_faces = 0;
-    faces_ = detail::distinct_faces(faces_, point_count(), counts());
+    keep_distinct_faces();
+  }
+
+  void keep_distinct_faces() {
+    detail::DistinctFaces distinct = detail::distinct_faces(faces_, point_count(), counts());
+    faces_ = std::move(distinct.faces);
+    cancelled_ = std::move(distinct.cancelled);
   }
 
   void close_loops() {
@@ -204,7 +210,7 @@ class Mending {
   std::vector<Vector3> points_;  // those of the soup, then centres of caps
   std::vector<Index> point_of_;
   std::vector<char> used_;
-  FaceSet faces_;
+  FaceSet faces_, cancelled_;
   std::vector<Index> twin_;
   Index wall_count_ = 0;
   MendedSoup mended_;

@@ -146,6 +146,28 @@ TEST_CASE(
   CHECK(report.degenerate_faces == 0);
 }
 
+TEST_CASE("a small solid that a pair of opposite triangles hangs on a large one is a part of it") {
+  VoxelSolid solid;
+  for (int x = 0; x < 9; ++x)
+    for (const auto& [y, z] : {std::pair{0, 0}, {0, 1}, {1, 0}, {1, 1}}) solid.cells.insert({x, y, z});
+  solid.cells.insert({9, 2, 2});
+  PolygonSoup soup = boundary(solid);
+  CHECK(facts_of(mend_soup(soup)).components == 2);
+  const auto at = [&](const Vector3& p) {
+    return static_cast<Index>(std::find(soup.points.begin(), soup.points.end(), p) - soup.points.begin());
+  };
+  const Index corner = at({9, 2, 2}), of_large = at({8, 2, 2}), of_small = at({9, 3, 2});
+  soup.add_triangle(corner, of_large, of_small);
+  soup.add_triangle(corner, of_small, of_large);
+  const MendedSoup mended = mend_soup(soup);
+  const Facts facts = facts_of(mended);
+  CHECK(mended.counts.joined_pieces == 1);
+  CHECK(facts.components == 1);
+  CHECK(facts.genus == 0);
+  CHECK(facts.volume == Approx(37).epsilon(0.01));
+  CHECK(report_mesh(make_snapshot(build_mesh(mended.soup)), {0}).degenerate_faces == 0);
+}
+
 TEST_CASE("voxels make as many pieces as they have connected over their faces") {
   Random random(GENERATE(range(1, 9)));
   VoxelSolid solid;
