@@ -13,7 +13,7 @@ struct SubdivisionOptions {
   // A component is cut until it has so many; those with more stay as they are. [4, 2^31)
   Index vertices = 1600;
   // Of all components together. A component of many may be given its even share of it at most. [4, 2^31)
-  Index all_vertices = 100'000;
+  Index all_vertices = 20'000;
   double longest = 0.03;  // edge that is left as it is, as a share of the diagonal of its component. (0, 1]
 };
 
