@@ -144,6 +144,8 @@ class UnionBoundary {
       faces.insert(faces.end(), shells_[m].faces.begin(), shells_[m].faces.end());
     }
     const BoundingVolumeHierarchy walls(surface_, faces);
+    // Every node is a corner of a cell that a face or its margin meets.
+    const double farthest = 1.01 * (std::sqrt(3.0) * grid_.side() + margin_);
     value_.resize(nodes_.size());
     parallel_for(
         static_cast<Index>(nodes_.size()), "union of shells", execution, [] { return 0; },
@@ -155,7 +157,7 @@ class UnionBoundary {
             inside = (p.array() >= shell.low.array()).all() && (p.array() <= shell.high.array()).all() &&
                      solids[m].inside(p);
           }
-          const double distance = walls.distance(p);
+          const double distance = std::min(walls.closest(p, farthest).distance, farthest);
           value_[i] = (inside ? -distance : distance) - margin_;
         },
         256);
