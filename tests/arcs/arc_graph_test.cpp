@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "mspskel/arcs/detail/arc_editor.h"
 #include "support/arc_graphs.h"
 
 using namespace mspskel;
@@ -128,7 +129,7 @@ TEST_CASE("Removing a leaf arc keeps the homotopy type and gives its vertices to
       std::vector<std::size_t> own;
       for (std::size_t v = 0; v < graph.arc_of_vertex.size(); ++v)
         if (graph.arc_of_vertex[v] == a || graph.hub_of_vertex[v] == hub[tip]) own.push_back(v);
-      remove_leaf_arc(graph, a, hub[1 - tip]);
+      detail::ArcEditor(graph).remove_leaf_arc(a, hub[1 - tip]);
       ++removed;
       for (const std::size_t v : own) REQUIRE(graph.hub_of_vertex[v] == hub[1 - tip]);
       REQUIRE(type_of(graph) == before);
@@ -136,6 +137,39 @@ TEST_CASE("Removing a leaf arc keeps the homotopy type and gives its vertices to
     }
   }
   REQUIRE(removed > 100);
+}
+
+TEST_CASE("An editor changes a graph as the whole graph would be, and knows what meets at each hub") {
+  Random random(6);
+  int removed = 0, dissolved = 0;
+  for (int run = 0; run < 600; ++run) {
+    ArcGraph graph = random_arc_graph(random);
+    if (graph.arcs.empty()) continue;
+    const GraphType before = type_of(graph);
+    detail::ArcEditor editor(graph);
+    for (int change = 0; change < 20; ++change) {
+      const auto a = random.below(graph.arc_count());
+      if (!graph.arcs[a].alive) continue;
+      const auto [from, to] = graph.arcs[a].hub;
+      if (editor.at(to).size() == 1 && editor.at(from).size() > 1) {
+        editor.remove_leaf_arc(a, from);
+        ++removed;
+      }
+      ArcGraph whole = graph;
+      if (editor.at(from).size() == 2 && editor.dissolve(from) != kNone) {
+        ++dissolved;
+        join_at(whole, from, whole.incidence()[from][0], whole.incidence()[from][1]);
+        for (Index b = 0; b < graph.arc_count(); ++b) REQUIRE(whole.arcs[b].points == graph.arcs[b].points);
+      }
+      const auto at = graph.incidence();
+      for (Index h = 0; h < graph.hub_count(); ++h) REQUIRE(at[h] == editor.at(h));
+      REQUIRE(type_of(graph) == before);
+      REQUIRE(arcs_meet_hubs(graph));
+      REQUIRE(map_is_partition(graph));
+    }
+  }
+  REQUIRE(removed > 100);
+  REQUIRE(dissolved > 100);
 }
 
 TEST_CASE("Contracting arcs that are no loops keeps the homotopy type and the map") {

@@ -1,8 +1,10 @@
 // Arcs side by side become one, arcs round a hole stay two.
 #include "mspskel/arcs/zip_arcs.h"
 
+#include <array>
 #include <catch2/catch.hpp>
 
+#include "mspskel/arcs/detail/arc_zipper.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/samples/skin_graph.h"
 #include "support/arc_graphs.h"
@@ -72,4 +74,29 @@ TEST_CASE("Arcs that part later are zipped up to where they part; arcs round a h
   zip_arcs(round, ring.surface, ring.hierarchy, {});
   CHECK(type_of(round) == GraphType{1, 1});
   CHECK(crossings(round, ring.hierarchy) == 0);
+}
+
+// Each hub of a line has two leaf arcs that never part, and loses them: what that costs does not depend on
+// how long the line is.
+TEST_CASE("As many pairs are compared a zip in a long graph as in a short one") {
+  std::array<double, 2> compared{};
+  for (const int k : {0, 1}) {
+    const int hubs = k == 0 ? 20 : 100;
+    const Solid solid(tube(1, hubs + 1, 24, 4 * hubs));
+    ArcGraph graph;
+    for (int i = 0; i < hubs; ++i) {
+      const Index hub = graph.add_hub(solid.at({0, 0, i + 1.0}));
+      if (i > 0) line(graph, i == 1 ? 0 : hub - 3, hub, 10);
+      for (const double side : {0.1, -0.1})
+        line(graph, hub, graph.add_hub(solid.at({0.5, side, i + 1.2})), 10);
+    }
+    map_to_nearest(graph, solid.surface.position);
+    const GraphType before = type_of(graph);
+    detail::ArcZipper zipper(graph, solid.surface, solid.hierarchy, 0.75, {});
+    CHECK(zipper.run({}) >= 2 * (hubs - 2));
+    CHECK(type_of(graph) == before);
+    CHECK(map_is_partition(graph));
+    compared[k] = static_cast<double>(zipper.compared()) / hubs;
+  }
+  CHECK(compared[1] < 1.25 * compared[0]);
 }

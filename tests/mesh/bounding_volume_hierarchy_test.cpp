@@ -199,6 +199,31 @@ TEST_CASE("boxes are searched completely") {
   }
 }
 
+TEST_CASE("of a box on a plane all faces that cross the plane are found, and few that do not") {
+  const SurfaceSnapshot s = snapshot({test::torus(2, 0.7, 96, 48)});
+  const BoundingVolumeHierarchy tree(s);
+  Points random;
+  Index visited = 0, crossing = 0;
+  for (int i = 0; i < 50; ++i) {
+    const Vector3 low = Vector3::Constant(-2), high = Vector3::Constant(2), normal = random().normalized();
+    const double offset = 0.1 * random().x();
+    std::vector<bool> found(s.face_count(), false);
+    tree.for_each_in_box_on_plane(low, high, normal, offset, [&](Index f) {
+      if (f != kNone && !found[f]) ++visited;
+      return f == kNone || (found[f] = true);
+    });
+    for (Index f = 0; f < s.face_count(); ++f) {
+      const detail::Triangle t = triangle(s, f);
+      const double a = normal.dot(t.a) - offset, b = normal.dot(t.b) - offset, c = normal.dot(t.c) - offset;
+      if (std::max({a, b, c}) < 0 || std::min({a, b, c}) > 0) continue;
+      ++crossing;
+      CHECK(found[f]);
+    }
+  }
+  CHECK(crossing > 5000);
+  CHECK(visited < 6 * crossing);  // all faces are 25 times as many
+}
+
 TEST_CASE("making a hierarchy can be cancelled") {
   const SurfaceSnapshot s = snapshot({test::sphere(6000)});
   int asked = 0;

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "mspskel/arcs/detail/arc_editor.h"
 #include "mspskel/limbs/limb_tips.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/refine/detail/arc_leaves.h"
@@ -57,7 +58,7 @@ TEST_CASE("A limb without an arc gets one, and nothing is added where all have t
   ArcGraph whole = tripod_arcs(solid, 0.97);
   CHECK(complete_limbs(whole, solid.surface, solid.hierarchy, tips, {}, 0.01) == 0);
   ArcGraph graph = whole;
-  remove_leaf_arc(graph, 2, 0);
+  detail::ArcEditor(graph).remove_leaf_arc(2, 0);
   dissolve_through_hubs(graph);
   CHECK(complete_limbs(graph, solid.surface, solid.hierarchy, tips, {}, 0.01) == 1);
   CHECK(leaf_count(graph) == 3);

@@ -64,8 +64,8 @@ void subdivide(ArcGraph& graph, double longest);
 // Puts a hub at an inner point of an arc, which ends there; the rest of it becomes the last arc. The hub.
 Index split_arc(ArcGraph& graph, Index arc, std::size_t point);
 
-// Removes a leaf arc: the hub `keep` that it leaves takes its vertices, and those of its tip.
-void remove_leaf_arc(ArcGraph& graph, Index arc, Index keep);
+// Joins two arcs that meet at a hub where nothing else ends: `kept` runs on as `gone`, which ends, as the hub.
+void join_at(ArcGraph& graph, Index hub, Index kept, Index gone);
 
 // Joins the two arcs that meet at every hub with exactly two arc ends, and gives the hub's vertices to the
 // joint arc.

@@ -39,6 +39,7 @@ class PlanarRegion {
     Index points = 0;    // real ones
     double perimeter = 0.0;
     double area = 0.0;  // signed: negative for holes
+    Eigen::AlignedBox2d box;
   };
 
   PlanarRegion() = default;
@@ -71,7 +72,8 @@ class PlanarRegion {
 
   double mean_width() const;  // 2 · area / length of all rings: a strip's width, a disc's radius
 
-  bool contains(const Vector2& p) const;    // by parity over all rings
+  // By parity over all rings. Cost: O(rings + points of the rings whose box p lies in).
+  bool contains(const Vector2& p) const;
   double distance(const Vector2& p) const;  // to the nearest point of all rings
   // The least t in (0, 1] for which p + t·d lies on a ring; 2 if there is none.
   double first_hit(const Vector2& p, const Vector2& d) const;

@@ -78,8 +78,17 @@ class BoundingVolumeHierarchy {
   template <class Visit>
   void for_each_in_box(const Vector3& low, const Vector3& high, Visit visit) const;
 
+  // The same for the faces of these whose box meets the plane normal · x = offset (unit normal), and some
+  // more: as few as a section has, however many the box.
+  template <class Visit>
+  void for_each_in_box_on_plane(const Vector3& low, const Vector3& high, const Vector3& normal, double offset,
+                                Visit visit) const;
+
  private:
   bool in_winding(const Vector3& p) const;
+  // Calls visit(face) for the triangles of a leaf until it returns false, which it then returns.
+  template <class Visit>
+  bool visit_leaf(Index first, Index count, Visit visit) const;
   // Calls visit(slot) for the triangles near the ray, roughly front to back, until it returns false.
   template <class Visit>
   void along_ray(const Vector3& origin, const Vector3& unit, const double& bound, Visit visit) const;
@@ -93,12 +102,23 @@ class BoundingVolumeHierarchy {
 };
 
 template <class Visit>
+bool BoundingVolumeHierarchy::visit_leaf(Index first, Index count, Visit visit) const {
+  for (Index i = first; i < first + count; ++i)
+    if (!visit(face_[i])) return false;
+  return true;
+}
+
+template <class Visit>
 void BoundingVolumeHierarchy::for_each_in_box(const Vector3& low, const Vector3& high, Visit visit) const {
-  tree_.in_box(low, high, [&](Index first, Index count) {
-    for (Index i = first; i < first + count; ++i)
-      if (!visit(face_[i])) return false;
-    return true;
-  });
+  tree_.in_box(low, high, [&](Index first, Index count) { return visit_leaf(first, count, visit); });
+}
+
+template <class Visit>
+void BoundingVolumeHierarchy::for_each_in_box_on_plane(const Vector3& low, const Vector3& high,
+                                                       const Vector3& normal, double offset,
+                                                       Visit visit) const {
+  tree_.in_box_on_plane(low, high, normal, offset,
+                        [&](Index first, Index count) { return visit_leaf(first, count, visit); });
 }
 
 }  // namespace mspskel

@@ -107,16 +107,21 @@ MSPSKEL_INLINE Index split_arc(ArcGraph& graph, Index arc, std::size_t point) {
   return hub;
 }
 
-MSPSKEL_INLINE void remove_leaf_arc(ArcGraph& graph, Index arc, Index keep) {
-  Arc& gone = graph.arcs[arc];
-  const Index tip = gone.hub[0] == keep ? gone.hub[1] : gone.hub[0];
-  gone.alive = false;
-  graph.hub_alive[tip] = false;
-  for (std::size_t v = 0; v < graph.arc_of_vertex.size(); ++v)
-    if (graph.arc_of_vertex[v] == arc || graph.hub_of_vertex[v] == tip) {
-      graph.arc_of_vertex[v] = kNone;
-      graph.hub_of_vertex[v] = keep;
-    }
+MSPSKEL_INLINE void join_at(ArcGraph& graph, Index hub, Index kept, Index gone) {
+  Arc &first = graph.arcs[kept], &second = graph.arcs[gone];
+  if (first.hub[0] == hub) {
+    std::reverse(first.points.begin(), first.points.end());
+    std::swap(first.hub[0], first.hub[1]);
+  }
+  if (second.hub[1] == hub) {
+    std::reverse(second.points.begin(), second.points.end());
+    std::swap(second.hub[0], second.hub[1]);
+  }
+  first.points.insert(first.points.end(), second.points.begin() + 1, second.points.end());
+  first.hub[1] = second.hub[1];
+  second.alive = false;
+  second.points.clear();
+  graph.hub_alive[hub] = false;
 }
 
 MSPSKEL_INLINE void dissolve_through_hubs(ArcGraph& graph) {
@@ -127,23 +132,10 @@ MSPSKEL_INLINE void dissolve_through_hubs(ArcGraph& graph) {
   for (Index h = 0; h < graph.hub_count(); ++h) {
     if (at[h].size() != 2 || at[h][0] == at[h][1]) continue;
     const Index a = at[h][0], b = at[h][1];
-    Arc &first = graph.arcs[a], &second = graph.arcs[b];
-    if (first.hub[0] == h) {
-      std::reverse(first.points.begin(), first.points.end());
-      std::swap(first.hub[0], first.hub[1]);
-    }
-    if (second.hub[1] == h) {
-      std::reverse(second.points.begin(), second.points.end());
-      std::swap(second.hub[0], second.hub[1]);
-    }
-    first.points.insert(first.points.end(), second.points.begin() + 1, second.points.end());
-    first.hub[1] = second.hub[1];
-    second.alive = false;
-    second.points.clear();
-    graph.hub_alive[h] = false;
+    join_at(graph, h, a, b);
     hub_gone_to[h] = a;
     arc_now[b] = a;
-    for (Index& other : at[first.hub[1]])
+    for (Index& other : at[graph.arcs[a].hub[1]])
       if (other == b) other = a;
   }
   const auto current = [&](Index a) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "mspskel/arcs/detail/arc_editor.h"
 #include "mspskel/arcs/detail/hub_components.h"
 #include "mspskel/base/linkage.h"
 #include "mspskel/solid/detail/inner_graph.h"
@@ -104,7 +105,7 @@ MSPSKEL_INLINE Index count_crossing_edges(const ArcGraph& graph, const BoundingV
 
 MSPSKEL_INLINE Index remove_crossing_leaves(ArcGraph& graph, const BoundingVolumeHierarchy& solid) {
   Index removed = 0;
-  auto at = graph.incidence();
+  detail::ArcEditor editor(graph);
   for (Index a = 0; a < graph.arc_count(); ++a) {
     const Arc& arc = graph.arcs[a];
     if (!arc.alive || arc.hub[0] == arc.hub[1]) continue;
@@ -114,12 +115,11 @@ MSPSKEL_INLINE Index remove_crossing_leaves(ArcGraph& graph, const BoundingVolum
     if (!crosses) continue;
     const auto [first, last] = arc.hub;
     // Of an arc between two leaves the hub that lies deeper stays.
-    const bool first_is_leaf = at[first].size() == 1, last_is_leaf = at[last].size() == 1;
+    const bool first_is_leaf = editor.at(first).size() == 1, last_is_leaf = editor.at(last).size() == 1;
     if (!first_is_leaf && !last_is_leaf) continue;
     const bool keep_first = !first_is_leaf || (last_is_leaf && solid.distance(graph.hub_position[first]) >=
                                                                    solid.distance(graph.hub_position[last]));
-    remove_leaf_arc(graph, a, keep_first ? first : last);
-    at = graph.incidence();
+    editor.remove_leaf_arc(a, keep_first ? first : last);
     ++removed;
   }
   return removed;

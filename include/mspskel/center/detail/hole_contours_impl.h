@@ -82,8 +82,8 @@ MSPSKEL_INLINE bool may_have_holes(const SliceRegion& slice, const BoundingVolum
 
 namespace detail::slice_centre {
 
-// Half-edges of the faces in the contour's box that lead from the plane's negative to its positive side,
-// ascending.
+// Half-edges of the faces in the contour's box and on its plane that lead from the plane's negative to its
+// positive side, ascending.
 inline std::vector<Index> crossings_near(const SliceRegion& slice, const SurfaceSnapshot& surface,
                                          const BoundingVolumeHierarchy& solid) {
   Eigen::AlignedBox3d box;
@@ -95,7 +95,7 @@ inline std::vector<Index> crossings_near(const SliceRegion& slice, const Surface
     return v == slice.through || (n.x() * p.x() + n.y() * p.y() + n.z() * p.z()) - slice.plane.offset >= 0;
   };
   std::vector<Index> starts;
-  solid.for_each_in_box(box.min(), box.max(), [&](Index f) {
+  solid.for_each_in_box_on_plane(box.min(), box.max(), n, slice.plane.offset, [&](Index f) {
     const bool s[3] = {positive(surface.origin[3 * f]), positive(surface.origin[3 * f + 1]),
                        positive(surface.origin[3 * f + 2])};
     for (Index i = 0; i < 3; ++i)

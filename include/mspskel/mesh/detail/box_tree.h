@@ -79,7 +79,16 @@ class BoxTree {
   template <class Leaf>
   void in_box(const Vector3& low, const Vector3& high, Leaf leaf) const;
 
+  // Of these, only the leaves whose box meets the plane normal · x = offset too.
+  template <class Leaf>
+  void in_box_on_plane(const Vector3& low, const Vector3& high, const Vector3& normal, double offset,
+                       Leaf leaf) const;
+
  private:
+  // Calls leaf(first, count) for the leaves below lanes whose bit is set in meets(node).
+  template <class Meets, class Leaf>
+  void where(Meets meets, Leaf leaf) const;
+
   static constexpr Index kPolled = 1024;  // fewer primitives take well below a millisecond
 
   struct Building {
@@ -340,13 +349,28 @@ void BoxTree::along_ray(const Vector3& origin, const Vector3& direction, const d
   }
 }
 
-template <class Leaf>
-void BoxTree::in_box(const Vector3& low, const Vector3& high, Leaf leaf) const {
-  float lo[3], hi[3];  // rounding is covered by the padding of the boxes
-  for (int a = 0; a < 3; ++a) {
-    lo[a] = static_cast<float>(low[a]);
-    hi[a] = static_cast<float>(high[a]);
+// Which lanes of a node meet a box.
+class MeetsBox {
+ public:
+  MeetsBox(const Vector3& low, const Vector3& high) {
+    for (int a = 0; a < 3; ++a) {  // rounding is covered by the padding of the boxes
+      low_[a] = static_cast<float>(low[a]);
+      high_[a] = static_cast<float>(high[a]);
+    }
   }
+  unsigned operator()(const BoxNode& node) const {
+    unsigned meets = 15;
+    for (int a = 0; a < 3; ++a)
+      meets &= at_most(load(node.low[a]), all(high_[a])) & at_most(all(low_[a]), load(node.high[a]));
+    return meets;
+  }
+
+ private:
+  float low_[3], high_[3];
+};
+
+template <class Meets, class Leaf>
+void BoxTree::where(Meets meets, Leaf leaf) const {
   BoxStack stack;
   stack.push_root();
   while (!stack.empty()) {
@@ -356,11 +380,35 @@ void BoxTree::in_box(const Vector3& low, const Vector3& high, Leaf leaf) const {
       continue;
     }
     const BoxNode& node = nodes_[top.child];
-    unsigned meets = 15;
-    for (int a = 0; a < 3; ++a)
-      meets &= at_most(load(node.low[a]), all(hi[a])) & at_most(all(lo[a]), load(node.high[a]));
-    stack.push(node, Lanes{}, meets);
+    stack.push(node, Lanes{}, meets(node));
   }
+}
+
+template <class Leaf>
+void BoxTree::in_box(const Vector3& low, const Vector3& high, Leaf leaf) const {
+  where(MeetsBox(low, high), leaf);
+}
+
+template <class Leaf>
+void BoxTree::in_box_on_plane(const Vector3& low, const Vector3& high, const Vector3& normal, double offset,
+                              Leaf leaf) const {
+  const MeetsBox meets_box(low, high);
+  float n[3];
+  for (int a = 0; a < 3; ++a) n[a] = static_cast<float>(normal[a]);
+  // The heights of a box's lowest and highest corner are sums of three products in single precision.
+  const float margin = static_cast<float>(reach_) * 0x1p-19f, at = static_cast<float>(offset);
+  where(
+      [&](const BoxNode& node) {
+        const unsigned lanes = meets_box(node);
+        if (lanes == 0) return lanes;
+        Lanes lowest = all(-margin), highest = all(margin);
+        for (int a = 0; a < 3; ++a) {
+          lowest += n[a] * load(n[a] < 0 ? node.high[a] : node.low[a]);
+          highest += n[a] * load(n[a] < 0 ? node.low[a] : node.high[a]);
+        }
+        return lanes & at_most(lowest, all(at)) & at_most(all(at), highest);
+      },
+      leaf);
 }
 
 }  // namespace detail

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "mspskel/arcs/detail/arc_editor.h"
 #include "mspskel/base/linkage.h"
 #include "mspskel/refine/detail/arc_leaves.h"
 
@@ -11,8 +12,8 @@ namespace detail {
 // One round: removes the leaf arcs that stand for no tip, from a graph without through hubs. Where all arcs
 // of a joint go but one, that one is a leaf arc of the next round.
 inline Index remove_leaves_without_tip(ArcGraph& graph, const std::vector<LimbTip>& tips) {
-  auto at = graph.incidence();
-  const ArcLeaves leaves(graph, at);
+  ArcEditor editor(graph);
+  const ArcLeaves leaves(graph, graph.incidence());
   std::vector<bool> has_tip(leaves.leaf.size(), false);
   for (const std::size_t leaf : leaves_of_tips(graph, leaves, tips))
     if (leaf != kNoLeaf) has_tip[leaf] = true;
@@ -23,9 +24,8 @@ inline Index remove_leaves_without_tip(ArcGraph& graph, const std::vector<LimbTi
   Index removed = 0;
   for (const auto& [length, i] : bare) {
     const auto [arc, joint, tip] = leaves.leaf[i];
-    if (at[joint].size() < 2) continue;
-    remove_leaf_arc(graph, arc, joint);
-    at[joint].erase(std::find(at[joint].begin(), at[joint].end(), arc));
+    if (editor.at(joint).size() < 2) continue;
+    editor.remove_leaf_arc(arc, joint);
     ++removed;
   }
   return removed;
@@ -47,13 +47,13 @@ MSPSKEL_INLINE Index remove_spurs(ArcGraph& graph, const BoundingVolumeHierarchy
   Index removed = 0;
   while (true) {
     dissolve_through_hubs(graph);
-    const auto at = graph.incidence();
+    detail::ArcEditor editor(graph);
     Index spur = kNone, joint = kNone;
     for (Index a = 0; a < graph.arc_count() && spur == kNone; ++a) {
       if (!graph.arcs[a].alive) continue;
       for (const int end : {0, 1}) {
         const Index tip = graph.arcs[a].hub[end], hub = graph.arcs[a].hub[1 - end];
-        if (at[tip].size() != 1 || at[hub].size() < 3) continue;
+        if (editor.at(tip).size() != 1 || editor.at(hub).size() < 3) continue;
         const Vector3& centre = graph.hub_position[hub];
         if ((graph.hub_position[tip] - centre).norm() >= solid.distance(centre)) continue;
         spur = a;
@@ -61,7 +61,7 @@ MSPSKEL_INLINE Index remove_spurs(ArcGraph& graph, const BoundingVolumeHierarchy
       }
     }
     if (spur == kNone) return removed;
-    remove_leaf_arc(graph, spur, joint);
+    editor.remove_leaf_arc(spur, joint);
     ++removed;
   }
 }
