@@ -106,10 +106,11 @@ Checked CheckCommand::check_against(const MeshInput& input, const CurveSkeleton&
   checked.wrapped = input.wrapped.has_value();
   SkeletonChecks& checks = checked.checks;
   checks = check_skeleton(surface, solid, skeleton, execution_);
-  checked.certificate = certify(surface, cocycles, solid, skeleton, CertificateDepth::kFull, execution_);
+  const SolidHierarchies solids(surface, solid, execution_.progress);
+  checked.certificate = certify(surface, cocycles, solids, skeleton, CertificateDepth::kFull, execution_);
   checks.genus -= checked.certificate.small_handles;
   checks.topology = checks.b0 == checks.components && checks.b1 == checks.genus;
-  checked.uncovered = find_uncovered_parts(surface, solid, skeleton, CoverageOptions{}, execution_);
+  checked.uncovered = find_uncovered_parts(surface, solids, skeleton, CoverageOptions{}, execution_);
   checked.failure = judge(surface, checked.certificate, checked.uncovered, least_inside_).failure;
   if (checked.failure.empty() && least_inside_ >= 1 && !checks.contained)
     checked.failure = "the skeleton leaves the solid";

@@ -117,10 +117,11 @@ std::string checks_text(const Extraction& self, const CurveSkeleton& skeleton) {
   const ExtractResult& result = self.made.result;
   const CurveSkeleton own = self.made.input.of_surface(skeleton);
   const SkeletonChecks checks = check_skeleton(result.surface, *result.solid, own);
+  const SolidHierarchies solids(result.surface, *result.solid);
   const TopologyCertificate certificate =
-      cli::certify(result.surface, result.cocycles, *result.solid, own, cli::CertificateDepth::kFull);
+      cli::certify(result.surface, result.cocycles, solids, own, cli::CertificateDepth::kFull);
   return cli::report_text(
-      cli::checks_json(checks, certificate, find_uncovered_parts(result.surface, *result.solid, own)));
+      cli::checks_json(checks, certificate, find_uncovered_parts(result.surface, solids, own)));
 }
 
 std::string facts_text(Extraction& self) {
@@ -181,8 +182,9 @@ void bind_soup(nb::module_& module) {
 const TopologyCertificate& Extraction::full_certificate() {
   std::call_once(certified_, [this] {
     const ExtractResult& result = made.result;
-    made.certificate = cli::certify(result.surface, result.cocycles, *result.solid, result.skeleton,
-                                    cli::CertificateDepth::kFull);
+    made.certificate =
+        cli::certify(result.surface, result.cocycles, SolidHierarchies(result.surface, *result.solid),
+                     result.skeleton, cli::CertificateDepth::kFull);
   });
   return made.certificate;
 }

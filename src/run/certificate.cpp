@@ -6,14 +6,13 @@
 namespace mspskel::cli {
 
 TopologyCertificate certify(const SurfaceSnapshot& surface, const VolumeCocycles& cocycles,
-                            const BoundingVolumeHierarchy& hierarchy, const CurveSkeleton& skeleton,
+                            const SolidHierarchies& solids, const CurveSkeleton& skeleton,
                             CertificateDepth depth, const Execution& execution) {
   refuse_not_finite(skeleton);
   CertificateOptions options;
   // Whether the surface crosses itself decides between "proved" and "kept", never over "failed".
   if (depth == CertificateDepth::kVerdict) options.self_intersecting = false;
-  return certify_topology(surface, cocycles, hierarchy, polyline_graph(surface, skeleton), options,
-                          execution);
+  return certify_topology(surface, cocycles, solids, polyline_graph(surface, skeleton), options, execution);
 }
 
 Json certificate_json(const TopologyCertificate& c) {

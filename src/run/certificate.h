@@ -3,7 +3,7 @@
 
 #include "command_line.h"
 #include "mspskel/collapse/topology_certificate.h"
-#include "mspskel/mesh/bounding_volume_hierarchy.h"
+#include "mspskel/mesh/solid_hierarchies.h"
 #include "mspskel/skeleton/curve_skeleton.h"
 
 namespace mspskel::cli {
@@ -14,10 +14,10 @@ enum class CertificateDepth {
   kFull,     // the surface is tested for self-intersections too
 };
 
-// `hierarchy` is that of the surface; the skeleton is in model units and may lack its surface map. Throws
+// `solids` are those of the surface; the skeleton is in model units and may lack its surface map. Throws
 // NoSkeletonError if a number of the skeleton is not finite; Cancelled.
 TopologyCertificate certify(const SurfaceSnapshot& surface, const VolumeCocycles& cocycles,
-                            const BoundingVolumeHierarchy& hierarchy, const CurveSkeleton& skeleton,
+                            const SolidHierarchies& solids, const CurveSkeleton& skeleton,
                             CertificateDepth depth, const Execution& execution = {});
 
 Json certificate_json(const TopologyCertificate& certificate);

@@ -26,9 +26,9 @@ void certify(const RunOptions& run, CertificateDepth depth, CheckedExtraction& m
   ExtractResult& result = made.result;
   if (!result.solid)
     result.solid = std::make_shared<const BoundingVolumeHierarchy>(result.surface, execution.progress);
-  made.certificate =
-      certify(result.surface, result.cocycles, *result.solid, result.skeleton, depth, execution);
-  made.uncovered = find_uncovered_parts(result.surface, *result.solid, result.skeleton, {}, execution);
+  const SolidHierarchies solids(result.surface, *result.solid, execution.progress);
+  made.certificate = certify(result.surface, result.cocycles, solids, result.skeleton, depth, execution);
+  made.uncovered = find_uncovered_parts(result.surface, solids, result.skeleton, {}, execution);
   result.seconds.emplace_back("checks", checking.seconds());
   Verdict verdict = judge(result.surface, made.certificate, made.uncovered, least_inside(run));
   result.warnings.insert(result.warnings.end(), verdict.warnings.begin(), verdict.warnings.end());

@@ -33,7 +33,8 @@ class CrossingLabels {
   bool has_loops() const { return !loop_edges_.empty(); }
 
   // Label of the way from a to b. `clear` is set to false where rounding leaves a doubt, else left alone.
-  // Cost: O(log rank) where no region is near, and O(points of its outlines) a region whose plane is met.
+  // Cost: O(log rank) where no region is near; a region whose plane is met costs its outlines, and the points
+  // of those whose boxes the place is in.
   CocycleLabel operator()(const Vector3& a, const Vector3& b, bool& clear) const {
     return label(a, b, false, clear);
   }
@@ -55,12 +56,16 @@ class CrossingLabels {
   }
 
  private:
+  struct Outline {
+    std::vector<Eigen::Vector2d> point;  // in the plane
+    Eigen::AlignedBox2d box;
+  };
   struct Row {
     CocycleLabel image;  // what a crossing counts as
     bool is_loop;
     Plane plane;
-    std::vector<std::vector<Eigen::Vector2d>> outlines;  // of a region, in the plane
-    std::vector<Vector3> loop;                           // in view coordinates
+    std::vector<Outline> outlines;  // of a region
+    std::vector<Vector3> loop;      // in view coordinates
   };
   struct Part {
     Index component = kNone;

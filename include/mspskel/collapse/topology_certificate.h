@@ -61,9 +61,13 @@ struct TopologyCertificate {
                                       // surface, none may be found
 };
 
-// `hierarchy` is that of the whole surface. Cost: O(faces + edges · (log faces + cocycles · crossings a
+// `solids` are those of the surface. Cost: O(faces + edges · (log faces + cocycles · crossings a
 // contour)), and the test for self-intersections, O(faces · log faces).
 // Throws UsageError for an edge that names no node, or a component that does not exist; Cancelled.
+TopologyCertificate certify_topology(const SurfaceSnapshot& surface, const VolumeCocycles& cocycles,
+                                     const SolidHierarchies& solids, const PolylineGraph& graph,
+                                     const CertificateOptions& options = {}, const Execution& execution = {});
+// The same with the hierarchy of the whole surface, from which it makes those of the components.
 TopologyCertificate certify_topology(const SurfaceSnapshot& surface, const VolumeCocycles& cocycles,
                                      const BoundingVolumeHierarchy& hierarchy, const PolylineGraph& graph,
                                      const CertificateOptions& options = {}, const Execution& execution = {});

@@ -5,6 +5,7 @@
 
 #include "mspskel/base/progress.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
+#include "mspskel/mesh/solid_hierarchies.h"
 #include "mspskel/mesh/surface_snapshot.h"
 #include "mspskel/skeleton/curve_skeleton.h"
 
@@ -31,9 +32,15 @@ struct CoverageOptions {
 // solid), a part is what hangs together beyond a
 // level of f, from a maximum down to where it is most slender (pi depth^2 / area, which is length over width
 // of a tube) before it meets a farther part: the measure that tells limbs, with another distance. The area is
-// that of all triangles that a part touches, so few triangles rather hide a part than make one up. Hierarchy
+// that of all triangles that a part touches, so few triangles rather hide a part than make one up. Solids
 // and snapshot belong together; radii are measured anew. O((vertices + nodes) log nodes), parallel; the
 // result does not depend on the threads. Throws Cancelled if the callback asks to stop.
+std::vector<UncoveredPart> find_uncovered_parts(const SurfaceSnapshot& surface,
+                                                const SolidHierarchies& solids,
+                                                const CurveSkeleton& skeleton,
+                                                const CoverageOptions& options = {},
+                                                const Execution& execution = {});
+// The same with the hierarchy of the whole surface, from which it makes those of the components.
 std::vector<UncoveredPart> find_uncovered_parts(const SurfaceSnapshot& surface,
                                                 const BoundingVolumeHierarchy& solid,
                                                 const CurveSkeleton& skeleton,

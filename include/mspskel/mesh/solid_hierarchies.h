@@ -23,6 +23,7 @@ class SolidHierarchies {
   const BoundingVolumeHierarchy& operator()(Index component) const {
     return own_.empty() || component == kNone ? whole_ : own_[static_cast<std::size_t>(component)];
   }
+  const BoundingVolumeHierarchy& whole() const { return whole_; }
   const ComponentSolids& components() const { return components_; }
 
   // The components in whose solid the point (normalised units) lies, ascending.

@@ -23,6 +23,19 @@ struct ArcEnd {
   int end;
 };
 
+// Its points in order from that end.
+class ArcWay {
+ public:
+  ArcWay(const ArcGraph& graph, const ArcEnd& from)
+      : points_(graph.arcs[from.arc].points), reversed_(from.end == 1) {}
+  std::size_t size() const { return points_.size(); }
+  const Vector3& operator[](std::size_t i) const { return points_[reversed_ ? size() - 1 - i : i]; }
+
+ private:
+  const std::vector<Vector3>& points_;
+  const bool reversed_;
+};
+
 struct CommonWay {
   double length = 0.0;    // along the first arc
   std::size_t first = 0;  // number of points of each arc on the way
@@ -57,10 +70,9 @@ class ArcRadii {
 inline CommonWay common_way(const ArcGraph& graph, const ArcEnd& from_a, const ArcEnd& from_b,
                             ArcRadii& radii, const BoundingVolumeHierarchy& solid, double closeness,
                             const CrossingLabels& crossings) {
-  const std::vector<Vector3> a = points_from(graph.arcs[from_a.arc], from_a.end),
-                             b = points_from(graph.arcs[from_b.arc], from_b.end);
+  const ArcWay a(graph, from_a), b(graph, from_b);
   CommonWay way;
-  way.stem.push_back(a.front());
+  way.stem.push_back(a[0]);
   std::vector<Vector3> ring;
   std::size_t j = 0;
   for (std::size_t i = 1; i < a.size(); ++i) {
@@ -76,8 +88,7 @@ inline CommonWay common_way(const ArcGraph& graph, const ArcEnd& from_a, const A
     if (solid.segment_crosses(way.stem.back(), middle)) break;
     if (crossings.goes_round({way.stem.back(), middle, a[i], a[i - 1]})) break;
     ring.assign({middle, way.stem.back()});
-    ring.insert(ring.end(), b.begin() + static_cast<std::ptrdiff_t>(j),
-                b.begin() + static_cast<std::ptrdiff_t>(k) + 1);
+    for (std::size_t m = j; m <= k; ++m) ring.push_back(b[m]);
     if (crossings.goes_round(ring)) break;
     j = k;
     way.length += (a[i] - a[i - 1]).norm();

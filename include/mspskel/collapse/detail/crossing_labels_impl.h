@@ -19,8 +19,11 @@ MSPSKEL_INLINE CrossingLabels::CrossingLabels(const VolumeCocycles& cocycles, in
     for (const auto& entry : row.image.entries()) parts_[entry.index] = {cocycle.component, row.is_loop};
     const detail::PlaneFrame frame(cocycle.plane.normal);
     for (const Contour& contour : cocycle.contours) {
-      row.outlines.emplace_back();
-      for (const Vector3& p : contour.point) row.outlines.back().push_back(frame(p));
+      Outline& outline = row.outlines.emplace_back();
+      for (const Vector3& p : contour.point) {
+        outline.point.push_back(frame(p));
+        outline.box.extend(outline.point.back());
+      }
     }
     for (const Vector3& p : cocycle.loop) row.loop.push_back(view(p));
     rows_.push_back(std::move(row));
@@ -64,7 +67,8 @@ MSPSKEL_INLINE int CrossingLabels::region_crossing(const Row& row, const Vector3
   if ((from >= 0) == (to >= 0)) return 0;
   const Eigen::Vector2d x = detail::PlaneFrame(row.plane.normal)(a + from / (from - to) * (b - a));
   bool inside = false;
-  for (const auto& outline : row.outlines) inside = inside != detail::inside_polygon(outline, x);
+  for (const Outline& outline : row.outlines)
+    if (outline.box.contains(x)) inside = inside != detail::inside_polygon(outline.point, x);
   return !inside ? 0 : to >= 0 ? 1 : -1;
 }
 

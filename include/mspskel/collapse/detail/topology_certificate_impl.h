@@ -187,17 +187,23 @@ inline void judge(const std::string& obstacle, Index dependent, TopologyCertific
 MSPSKEL_INLINE TopologyCertificate certify_topology(
     const SurfaceSnapshot& surface, const VolumeCocycles& cocycles, const BoundingVolumeHierarchy& hierarchy,
     const PolylineGraph& graph, const CertificateOptions& options, const Execution& execution) {
+  return certify_topology(surface, cocycles, SolidHierarchies(surface, hierarchy, execution.progress), graph,
+                          options, execution);
+}
+
+MSPSKEL_INLINE TopologyCertificate certify_topology(
+    const SurfaceSnapshot& surface, const VolumeCocycles& cocycles, const SolidHierarchies& solids,
+    const PolylineGraph& graph, const CertificateOptions& options, const Execution& execution) {
   detail::check_graph(surface, graph);
   TopologyCertificate c = detail::facts_of(cocycles);
   c.components = surface.component_count;
-  const SolidHierarchies solids(surface, hierarchy, execution.progress);
   for (const Index around : solids.components().around) c.nested_components += around != kNone;
   c.self_intersecting = options.self_intersecting
                             ? *options.self_intersecting
-                            : count_self_intersections(surface, hierarchy, 1, execution) > 0;
+                            : count_self_intersections(surface, solids.whole(), 1, execution) > 0;
   const std::vector<Index> piece = pieces_of(graph);
   for (std::size_t v = 0; v < piece.size(); ++v) c.b0 += piece[v] == static_cast<Index>(v);
-  const std::vector<Index> component = find_components(surface, hierarchy, solids, graph, piece);
+  const std::vector<Index> component = find_components(surface, solids.whole(), solids, graph, piece);
   const PolylineGraph sorted = detail::measure_inside(solids, graph, component, execution.progress, c);
   const detail::CycleCrossings crossings =
       detail::cross_cycles(cocycles, sorted, c.edges_inside, component, execution.progress);

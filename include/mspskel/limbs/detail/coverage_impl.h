@@ -13,10 +13,9 @@ namespace mspskel {
 namespace detail {
 
 // Per component the maximal balls, in its solid, round the nodes that stand for it.
-inline std::vector<BallTree> balls_of_nodes(const SurfaceSnapshot& surface,
-                                            const BoundingVolumeHierarchy& whole,
+inline std::vector<BallTree> balls_of_nodes(const SurfaceSnapshot& surface, const SolidHierarchies& solids,
                                             const CurveSkeleton& skeleton, const Execution& execution) {
-  const PlacedSkeleton placed(surface, whole, skeleton, execution.progress);
+  const PlacedSkeleton placed(surface, solids, skeleton);
   std::vector<Ball> balls;
   for (const Vector3& position : placed.graph.position) balls.push_back({position, 0.0});
   parallel_for(
@@ -40,7 +39,16 @@ MSPSKEL_INLINE std::vector<UncoveredPart> find_uncovered_parts(const SurfaceSnap
                                                                const CurveSkeleton& skeleton,
                                                                const CoverageOptions& options,
                                                                const Execution& execution) {
-  const std::vector<detail::BallTree> balls = detail::balls_of_nodes(surface, solid, skeleton, execution);
+  return find_uncovered_parts(surface, SolidHierarchies(surface, solid, execution.progress), skeleton, options,
+                              execution);
+}
+
+MSPSKEL_INLINE std::vector<UncoveredPart> find_uncovered_parts(const SurfaceSnapshot& surface,
+                                                               const SolidHierarchies& solids,
+                                                               const CurveSkeleton& skeleton,
+                                                               const CoverageOptions& options,
+                                                               const Execution& execution) {
+  const std::vector<detail::BallTree> balls = detail::balls_of_nodes(surface, solids, skeleton, execution);
   std::vector<double> outside(surface.position.size(), 0.0);
   parallel_for(
       surface.vertex_count(), "coverage", execution, [] { return 0; },

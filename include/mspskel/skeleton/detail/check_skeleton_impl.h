@@ -206,7 +206,8 @@ MSPSKEL_INLINE SkeletonChecks check_skeleton(const SurfaceSnapshot& snapshot,
   checks.diagonal = diagonal * snapshot.frame.scale;
   detail::check_topology(snapshot, skeleton, checks);
 
-  const detail::PlacedSkeleton placed(snapshot, hierarchy, skeleton, execution.progress);
+  const SolidHierarchies solids(snapshot, hierarchy, execution.progress);
+  const detail::PlacedSkeleton placed(snapshot, solids, skeleton);
   detail::check_containment(placed, skeleton, snapshot.frame.scale, checks);
 
   const auto samples = detail::sample_skeleton(placed, 0.0025 * diagonal, execution);

@@ -10,12 +10,12 @@ namespace detail {
 // Every node and edge is measured in the solid of the component that it stands for.
 struct PlacedSkeleton {
   PolylineGraph graph;  // the component of every node is known
-  SolidHierarchies solids;
+  const SolidHierarchies& solids;
 
-  PlacedSkeleton(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& whole,
-                 const CurveSkeleton& skeleton, const ProgressCallback& progress)
-      : graph(polyline_graph(surface, skeleton)), solids(surface, whole, progress) {
-    graph.component = find_components(surface, whole, solids, graph, pieces_of(graph));
+  PlacedSkeleton(const SurfaceSnapshot& surface, const SolidHierarchies& of_surface,
+                 const CurveSkeleton& skeleton)
+      : graph(polyline_graph(surface, skeleton)), solids(of_surface) {
+    graph.component = find_components(surface, solids.whole(), solids, graph, pieces_of(graph));
   }
   const BoundingVolumeHierarchy& solid_of(Index node) const { return solids(graph.component[node]); }
 };

@@ -50,8 +50,10 @@ class InnerPaths {
     for (const Index v : marked_) marks_[v] = {};
     marked_.clear();
     std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
+    const std::vector<std::pair<double, Index>> goals = entries(b);
+    if (goals.empty()) return false;
+    for (const auto& [distance, v] : goals) mark(v).goal = true;
     for (const auto& [distance, v] : entries(a)) queue.push({step_cost(distance, clearance(v)), v, kNone});
-    for (const auto& [distance, v] : entries(b)) mark(v).goal = true;
     while (!queue.empty()) {
       const auto [cost, v, before] = queue.top();
       queue.pop();
