@@ -39,8 +39,8 @@ MSPSKEL_INLINE std::vector<UncoveredPart> find_uncovered_parts(const SurfaceSnap
                                                                const CurveSkeleton& skeleton,
                                                                const CoverageOptions& options,
                                                                const Execution& execution) {
-  return find_uncovered_parts(surface, SolidHierarchies(surface, solid, execution.progress), skeleton, options,
-                              execution);
+  const SolidHierarchies solids(surface, solid, execution.progress);
+  return find_uncovered_parts(surface, solids, skeleton, options, execution);
 }
 
 MSPSKEL_INLINE std::vector<UncoveredPart> find_uncovered_parts(const SurfaceSnapshot& surface,
