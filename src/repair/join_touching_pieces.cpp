@@ -11,7 +11,7 @@ namespace {
 
 struct Contact {
   Index piece, other;
-  double length;  // of the edge; 0: in a point
+  double length;                   // of the edge; 0: in a point
   std::array<Index, 2> halfedges;  // one of each piece, from the smaller end of the edge, or from the point
 
   // Of two pieces, the longest first.

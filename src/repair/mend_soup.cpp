@@ -36,8 +36,8 @@ class Mending {
     twin_ = detail::pair_faces(points_, faces_, counts());
     wall_count_ = faces_.count();
     close_loops();
-    counts().joined_pieces = detail::join_touching_pieces(points_, cancelled_, wall_count_,
-                                                          options_.touching_part, faces_, twin_);
+    counts().joined_pieces =
+        detail::join_touching_pieces(points_, cancelled_, wall_count_, options_.touching_part, faces_, twin_);
     finish();
     return std::move(mended_);
   }

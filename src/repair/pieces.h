@@ -26,9 +26,9 @@ std::vector<Piece> measure_pieces(const std::vector<Vector3>& points, const Face
                                   const std::vector<Index>& piece_of);
 
 // False for what is flat (its volume is nothing beside its area: a sphere's is 36 pi V² / A³ = 1, such a
-// piece's is below 1e-8) and for a sheet: caps make up almost half of it, or they are at least 0.3 of the wall
-// and what they close is below 1e-3, as where a lid lies across the hills and valleys of a terrain. A dish a
-// twentieth as deep as wide and its lid have 0.04.
+// piece's is below 1e-8) and for a sheet: caps make up almost half of it, or they are at least 0.3 of the
+// wall and what they close is below 1e-3, as where a lid lies across the hills and valleys of a terrain. A
+// dish a twentieth as deep as wide and its lid have 0.04.
 bool has_volume(const Piece& piece);
 
 }  // namespace mspskel::detail

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "mspskel/base/error.h"
 #include "merge_short_edges.h"
+#include "mspskel/base/error.h"
 #include "outside_flood.h"
 #include "point_tree.h"
 #include "tetrahedron_cutter.h"
@@ -77,8 +77,7 @@ Scale told_scale(const SoupWalls& walls) {
   Scale chosen = scale_for(gap, kFinestToldCell);
   chosen.encloses = most > telling.walls();
   if (chosen.encloses && gap == kLargestGap)
-    chosen.encloses =
-        most > kSteady * Telling(walls, 0, 2 * kLargestGap).enclosed(2 * kLargestGap);
+    chosen.encloses = most > kSteady * Telling(walls, 0, 2 * kLargestGap).enclosed(2 * kLargestGap);
   return chosen;
 }
 

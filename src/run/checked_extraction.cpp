@@ -44,8 +44,8 @@ void extract_from_input(const RunOptions& run, CertificateDepth depth, CheckedEx
   certify(run, depth, made);
 }
 
-// Where a surface that crosses itself, or that rounding has crushed, carries no skeleton. A wrap has no open ends
-// any more, and is no better than another wrap.
+// Where a surface that crosses itself, or that rounding has crushed, carries no skeleton. A wrap has no open
+// ends any more, and is no better than another wrap.
 bool may_be_wrapped(const CheckedExtraction& made, const RunOptions& run) {
   const TopologyCertificate& of = made.certificate;
   return run.repair.wrap_mode == WrapMode::kAuto && !made.failure.empty() &&

@@ -55,8 +55,7 @@ double filled_by_shells(const SurfaceSnapshot& surface) {
   std::vector<double> volume(static_cast<std::size_t>(surface.component_count), 0.0);
   for (Index f = 0; f < surface.face_count(); ++f) {
     const Index v = surface.origin[3 * f];
-    volume[surface.component[v]] +=
-        surface.face_normal_times_twice_area(f).dot(surface.position[v]) / 6;
+    volume[surface.component[v]] += surface.face_normal_times_twice_area(f).dot(surface.position[v]) / 6;
   }
   const double sum = std::accumulate(volume.begin(), volume.end(), 0.0,
                                      [](double all, double part) { return all + std::abs(part); });

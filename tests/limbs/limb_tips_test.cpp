@@ -113,8 +113,10 @@ TEST_CASE("The corners of bodies that carry limbs are no limbs") {
     std::size_t limbs;
   };
   // A cube with rods, the top of a table beyond the legs, the corners of a frame of bars.
-  const std::vector<Body> bodies{{"cube-rods", 1, 0, Section::kSquare, 1}, {"cube-rods", 3, 0, Section::kRound, 3},
-                                 {"table", 4, 0.7, Section::kSquare, 4},   {"lattice", 3, 0, Section::kSquare, 0}};
+  const std::vector<Body> bodies{{"cube-rods", 1, 0, Section::kSquare, 1},
+                                 {"cube-rods", 3, 0, Section::kRound, 3},
+                                 {"table", 4, 0.7, Section::kSquare, 4},
+                                 {"lattice", 3, 0, Section::kSquare, 0}};
   for (const Body& body : bodies) {
     SampleOptions options;
     options.count = body.count;

@@ -76,7 +76,8 @@ TEST_CASE("the closest point of a triangle without area lies on it") {
     // All corners on a line, moved off it by no more than rounding, or all at one point.
     const Vector3 a = random(), along = i % 10 == 0 ? Vector3::Zero() : random();
     const double off = i % 3 == 0 ? 0 : std::pow(10.0, -15 - i % 150);
-    const detail::Triangle t{a, a + random()[0] * along + off * random(), a + random()[0] * along + off * random()};
+    const detail::Triangle t{a, a + random()[0] * along + off * random(),
+                             a + random()[0] * along + off * random()};
     const Vector3 p = a + random()[0] * along + std::pow(10.0, i % 5 - 4.0) * random();
     const Vector3 q = detail::closest_on_triangle(p, t);
     REQUIRE(q.allFinite());

@@ -189,8 +189,8 @@ TEST_CASE("Shells are walls where they shut in more than they fill") {
 
 TEST_CASE("Plane walls of a wrap are cut to no slivers, which would keep a surface from being coarsened") {
   // A cross of plates along the grid's axes, and one aslant to them.
-  const PolygonSoup plates = together(
-      {box({-2, -1.5, -0.02}, {2, 1.5, 0.02}), box({-0.02, -1.2, -1}, {0.02, 1.2, 1})});
+  const PolygonSoup plates =
+      together({box({-2, -1.5, -0.02}, {2, 1.5, 0.02}), box({-0.02, -1.2, -1}, {0.02, 1.2, 1})});
   PolygonSoup aslant = plates;
   for (Vector3& p : aslant.points) p = Vector3(p.x() - 0.3 * p.y(), p.y() + 0.2 * p.z(), p.z() + 0.4 * p.x());
   for (const PolygonSoup& soup : {plates, aslant}) {

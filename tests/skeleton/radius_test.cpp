@@ -19,7 +19,8 @@ TEST_CASE("radii in a solid that is pressed to a line are finite, however near t
   for (int i = 0; i < 4000; ++i) {
     if (i % 20 == 0) skeleton.nodes.emplace_back().position = {2.5 * uniform(generator), 0, 0};
     const Vector3 last = skeleton.nodes.back().position;
-    skeleton.nodes.emplace_back().position = last + 1e-14 * Vector3(uniform(generator), uniform(generator), 0);
+    skeleton.nodes.emplace_back().position =
+        last + 1e-14 * Vector3(uniform(generator), uniform(generator), 0);
   }
   set_radii(surface, hierarchy, skeleton);
   for (const SkeletonNode& node : skeleton.nodes) {

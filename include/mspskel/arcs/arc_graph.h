@@ -64,7 +64,8 @@ void subdivide(ArcGraph& graph, double longest);
 // Puts a hub at an inner point of an arc, which ends there; the rest of it becomes the last arc. The hub.
 Index split_arc(ArcGraph& graph, Index arc, std::size_t point);
 
-// Joins two arcs that meet at a hub where nothing else ends: `kept` runs on as `gone`, which ends, as the hub.
+// Joins two arcs that meet at a hub where nothing else ends: `kept` runs on as `gone`, which ends, as the
+// hub.
 void join_at(ArcGraph& graph, Index hub, Index kept, Index gone);
 
 // Joins the two arcs that meet at every hub with exactly two arc ends, and gives the hub's vertices to the

@@ -36,8 +36,7 @@ struct CoverageOptions {
 // and snapshot belong together; radii are measured anew. O((vertices + nodes) log nodes), parallel; the
 // result does not depend on the threads. Throws Cancelled if the callback asks to stop.
 std::vector<UncoveredPart> find_uncovered_parts(const SurfaceSnapshot& surface,
-                                                const SolidHierarchies& solids,
-                                                const CurveSkeleton& skeleton,
+                                                const SolidHierarchies& solids, const CurveSkeleton& skeleton,
                                                 const CoverageOptions& options = {},
                                                 const Execution& execution = {});
 // The same with the hierarchy of the whole surface, from which it makes those of the components.

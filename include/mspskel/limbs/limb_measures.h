@@ -40,7 +40,8 @@ struct LimbMeasures {
   // 2π depth² / area: length over radius of a tube, 2 / sin of the half angle of a cone. An area moves little
   // under noise and with the triangles, so this decides.
   double slenderness = 0.0;
-  double mean_depth = 0.5;  // of its surface below its tip, over depth: 1/2 of a tube, 2/3 of a cone or corner
+  double mean_depth =
+      0.5;  // of its surface below its tip, over depth: 1/2 of a tube, 2/3 of a cone or corner
   // 2π depth / length of the contour where it leaves the rest: 1 / sin of the half angle of a cone.
   double depth_over_mouth = 0.0;
 };
@@ -48,10 +49,10 @@ struct LimbMeasures {
 // Whether a part is blunter than a right-angled cone. Spikes and fins are deep for their mouths.
 inline bool is_blunt(double depth_over_mouth) { return depth_over_mouth < 1.4142; }
 
-// Whether a part of a plate is no sharper than a right-angled corner, by both of its measures. The level of such
-// a corner is 2 depth wide on each side of the plate, which makes π / 2 of depth over mouth and π of slenderness;
-// and a tenth more, since arcs beside it bend the level. Where a twig leaves what the arcs cover, its level may
-// run along all of that and says nothing, but its area does.
+// Whether a part of a plate is no sharper than a right-angled corner, by both of its measures. The level of
+// such a corner is 2 depth wide on each side of the plate, which makes π / 2 of depth over mouth and π of
+// slenderness; and a tenth more, since arcs beside it bend the level. Where a twig leaves what the arcs
+// cover, its level may run along all of that and says nothing, but its area does.
 inline bool is_blunt_when_flat(double depth_over_mouth, double slenderness) {
   constexpr double kRightAngle = 1.1 * 3.14159265358979323846;
   return depth_over_mouth < 0.5 * kRightAngle && slenderness < kRightAngle;
@@ -61,7 +62,8 @@ inline bool is_blunt_when_flat(double depth_over_mouth, double slenderness) {
 inline bool is_wider_than_carrier(double half_width, double carrier) { return half_width > 1.25 * carrier; }
 
 // The corner of a body: blunt, and widening in proportion to its depth or wider than its carrier. A limb is
-// about as wide at its root as before it. Where the whole body lies behind the surface, less of a taper will do.
+// about as wide at its root as before it. Where the whole body lies behind the surface, less of a taper will
+// do.
 inline bool is_corner(const LimbMeasures& m) {
   const bool widens = m.mean_depth > (m.half_chord > 3 * m.half_width ? 0.61 : 0.655);
   return is_blunt(m.depth_over_mouth) &&
@@ -82,8 +84,8 @@ inline bool is_digit(const LimbMeasures& m, const LimbOptions& o) {
   return m.slenderness >= kFinger * o.slenderness && m.depth >= 1.6 * o.smallest;
 }
 
-// An ear or a horn: a bump rather than a limb, but much smaller than what carries it, and no wider unless it is
-// sharp. Only in a shape that has limbs or whose body ends: a ridge of a plain body may be as much.
+// An ear or a horn: a bump rather than a limb, but much smaller than what carries it, and no wider unless it
+// is sharp. Only in a shape that has limbs or whose body ends: a ridge of a plain body may be as much.
 inline bool is_ear(const LimbMeasures& m, const LimbOptions& o) {
   constexpr double kAsWide = 1.05;  // within the accuracy of the two widths
   if (is_blunt(m.depth_over_mouth) && m.half_width > kAsWide * m.carrier_half_chord) return false;

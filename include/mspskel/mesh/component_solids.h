@@ -40,8 +40,8 @@ struct SurfacePart {
 // depend on the others. Cost: O(faces), times a logarithm where their numbers lie far apart.
 SurfacePart surface_part(const SurfaceSnapshot& surface, const std::vector<Index>& faces);
 
-// What bounds a component's solid, in the frame of the component's own part: of `faces` the first `own` are the
-// component, which come first here too and are named as in its own part; the others bound cavities.
+// What bounds a component's solid, in the frame of the component's own part: of `faces` the first `own` are
+// the component, which come first here too and are named as in its own part; the others bound cavities.
 SurfacePart solid_part(const SurfaceSnapshot& surface, const std::vector<Index>& faces, std::size_t own,
                        const NormalisedFrame& frame);
 

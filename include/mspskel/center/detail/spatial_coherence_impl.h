@@ -56,8 +56,7 @@ MSPSKEL_INLINE void apply_spatial_coherence(const SurfaceSnapshot& surface, cons
   constexpr Index kFew = 20000;  // more rows than that take longer to eliminate than to approach
   Eigen::MatrixX3d guess(n, 3);
   for (Index v = 0; v < n; ++v) guess.row(v) = mesh.position[v].transpose();
-  const auto solution =
-      n > kFew ? solve_large(matrix, right, guess) : solve_by_elimination(matrix, right);
+  const auto solution = n > kFew ? solve_large(matrix, right, guess) : solve_by_elimination(matrix, right);
   if (!solution) return;  // the matrix is positive definite, so only rounding could do this
   for (Index v = 0; v < n; ++v) mesh.position[v] = solution->row(v).transpose();
 }

@@ -69,8 +69,8 @@ class LimbTipSearch {
   struct Notes {
     double area = 0;
     Index vertices = 0;
-    Index euler = 0;      // its Euler characteristic: 1 while it is a disc
-    Level slenderest;     // of all levels
+    Index euler = 0;   // its Euler characteristic: 1 while it is a disc
+    Level slenderest;  // of all levels
     Level slenderest_disc;
     double own = 0;  // where it first met another limb
   };
@@ -92,8 +92,8 @@ class LimbTipSearch {
     if (notes.euler == 1 && slenderness > notes.slenderest_disc.slenderness) notes.slenderest_disc = level;
   }
 
-  // What the vertex adds to the Euler characteristic of the vertices beyond it: itself, the edges to them, and
-  // the triangles with two of them.
+  // What the vertex adds to the Euler characteristic of the vertices beyond it: itself, the edges to them,
+  // and the triangles with two of them.
   Index euler_change(Index v) const {
     const auto beyond = [&](Index w) {
       return distance_[w] != distance_[v] ? distance_[w] > distance_[v] : w < v;

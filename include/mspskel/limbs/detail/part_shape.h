@@ -22,7 +22,8 @@ class PartShapeSum {
   PartShapeSum(const SurfaceSnapshot& surface, const std::vector<double>& distance, double level)
       : surface_(surface), distance_(distance), level_(level) {}
 
-  // Adds the triangles of which v is the farthest corner. All of the part's vertices together count each once.
+  // Adds the triangles of which v is the farthest corner. All of the part's vertices together count each
+  // once.
   void add_vertex(Index v) {
     const auto less_far = [&](Index w) {
       return distance_[w] != distance_[v] ? distance_[w] < distance_[v] : w > v;
@@ -36,9 +37,7 @@ class PartShapeSum {
     } while (h != first);
   }
 
-  PartShape shape(double top) const {
-    return {area_, area_ > 0 ? top - moment_ / area_ : 0.0, mouth_};
-  }
+  PartShape shape(double top) const { return {area_, area_ > 0 ? top - moment_ / area_ : 0.0, mouth_}; }
 
  private:
   struct Corner {

@@ -24,7 +24,7 @@ inline PrimitiveBox box_of(const Triangle& t, Index primitive) {
 }  // namespace detail
 
 MSPSKEL_INLINE BoundingVolumeHierarchy::BoundingVolumeHierarchy(const SurfaceSnapshot& s,
-                                                        const ProgressCallback& progress)
+                                                                const ProgressCallback& progress)
     : BoundingVolumeHierarchy(
           s,
           [&] {
@@ -35,8 +35,8 @@ MSPSKEL_INLINE BoundingVolumeHierarchy::BoundingVolumeHierarchy(const SurfaceSna
           progress) {}
 
 MSPSKEL_INLINE BoundingVolumeHierarchy::BoundingVolumeHierarchy(const SurfaceSnapshot& s,
-                                                        const std::vector<Index>& faces,
-                                                        const ProgressCallback& progress) {
+                                                                const std::vector<Index>& faces,
+                                                                const ProgressCallback& progress) {
   const auto triangle = [&](Index f) {
     return detail::Triangle{s.position[s.origin[3 * f]], s.position[s.origin[3 * f + 1]],
                             s.position[s.origin[3 * f + 2]]};
@@ -61,7 +61,7 @@ MSPSKEL_INLINE BoundingVolumeHierarchy::BoundingVolumeHierarchy(const SurfaceSna
 }
 
 MSPSKEL_AVX_CLONES MSPSKEL_INLINE ClosestPoint BoundingVolumeHierarchy::closest(const Vector3& p,
-                                                                        double bound) const {
+                                                                                double bound) const {
   ClosestPoint best;
   double square = bound * bound;
   const detail::FilterPoint rough(p, reach_);
@@ -116,7 +116,7 @@ MSPSKEL_AVX_CLONES MSPSKEL_INLINE std::optional<RayHit> BoundingVolumeHierarchy:
 }
 
 MSPSKEL_INLINE Index BoundingVolumeHierarchy::count_hits(const Vector3& origin, const Vector3& direction,
-                                                 double max_distance) const {
+                                                         double max_distance) const {
   const Vector3 unit = direction.normalized();
   Index hits = 0;
   along_ray(origin, unit, max_distance, [&](Index slot) {
@@ -129,8 +129,8 @@ MSPSKEL_INLINE Index BoundingVolumeHierarchy::count_hits(const Vector3& origin, 
   return hits;
 }
 
-MSPSKEL_INLINE void BoundingVolumeHierarchy::ray_fan(const Vector3& p, const Vector3& u, const Vector3& w, int count,
-                                             double* distance) const {
+MSPSKEL_INLINE void BoundingVolumeHierarchy::ray_fan(const Vector3& p, const Vector3& u, const Vector3& w,
+                                                     int count, double* distance) const {
   const std::vector<Vector2>& direction = even_directions(count);
   for (int k = 0; k < count; ++k) {
     const auto hit = first_hit(p, direction[k].x() * u + direction[k].y() * w);
@@ -185,7 +185,7 @@ MSPSKEL_INLINE bool BoundingVolumeHierarchy::in_winding(const Vector3& p) const 
 }
 
 MSPSKEL_AVX_CLONES MSPSKEL_INLINE bool BoundingVolumeHierarchy::segment_crosses(const Vector3& a,
-                                                                        const Vector3& b) const {
+                                                                                const Vector3& b) const {
   const double length = (b - a).norm();
   if (!(length > 0)) return false;
   bool crossed = false;

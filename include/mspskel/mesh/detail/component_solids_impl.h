@@ -45,8 +45,8 @@ MSPSKEL_INLINE ComponentSolids find_component_solids(const SurfaceSnapshot& surf
 
 namespace detail {
 
-// Numbers in order without repetition, each with its place among them. Where they lie close together, as those of
-// a component mostly do, a table tells the place; else a search does.
+// Numbers in order without repetition, each with its place among them. Where they lie close together, as
+// those of a component mostly do, a table tells the place; else a search does.
 class OrderedNumbers {
  public:
   explicit OrderedNumbers(const std::vector<Index>& numbers) {
@@ -79,13 +79,15 @@ class OrderedNumbers {
   Index first_;
 };
 
-// Positions in model coordinates and connectivity. Each list of faces is that of whole components, so a face's
-// neighbours are in its list.
-inline SurfacePart connect_part(const SurfaceSnapshot& surface, const std::vector<std::vector<Index>>& lists) {
+// Positions in model coordinates and connectivity. Each list of faces is that of whole components, so a
+// face's neighbours are in its list.
+inline SurfacePart connect_part(const SurfaceSnapshot& surface,
+                                const std::vector<std::vector<Index>>& lists) {
   SurfacePart part;
   std::vector<Index> corners;
   for (const std::vector<Index>& faces : lists)
-    for (const Index f : faces) corners.insert(corners.end(), &surface.origin[3 * f], &surface.origin[3 * f] + 3);
+    for (const Index f : faces)
+      corners.insert(corners.end(), &surface.origin[3 * f], &surface.origin[3 * f] + 3);
   const OrderedNumbers vertices(corners);
   part.vertex = vertices.ordered();
   SurfaceSnapshot& s = part.surface;

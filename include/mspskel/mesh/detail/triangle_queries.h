@@ -28,8 +28,8 @@ inline Vector3 closest_on_sides(const Vector3& p, const Triangle& t) {
 }
 
 // The point of the triangle nearest to p, by the region of the plane that p projects to: three corners, three
-// edges, the inside (Ericson, "Real-Time Collision Detection", 2005, 5.1.5). Where a triangle has hardly an area,
-// its barycentric weights are rounding's, and a point of its sides may be nearer.
+// edges, the inside (Ericson, "Real-Time Collision Detection", 2005, 5.1.5). Where a triangle has hardly an
+// area, its barycentric weights are rounding's, and a point of its sides may be nearer.
 inline Vector3 closest_on_triangle(const Vector3& p, const Triangle& t) {
   const Vector3 ab = t.b - t.a, ac = t.c - t.a, ap = p - t.a;
   const double d1 = ab.dot(ap), d2 = ac.dot(ap);

@@ -107,8 +107,8 @@ class LimbCompletion {
     return false;
   }
 
-  // The level at which a part is a limb: slender by itself and no corner, or a bump that is no wider than what
-  // carries it.
+  // The level at which a part is a limb: slender by itself and no corner, or a bump that is no wider than
+  // what carries it.
   std::optional<PartLevel> limb_level(const SlenderPart& part) const {
     const PartLevel& own = part.slenderest;
     const bool is_corner = is_blunt_when_flat(own.depth_over_mouth(), own.slenderness()) &&
