@@ -22,7 +22,7 @@ const PAGE = `<!doctype html><script type="importmap">{"imports": {
 
 // Runs in the page. What is asked for: see check in main.
 async function measure({ encoded, all }) {
-  const THREE = window.THREE, ANGLE = Math.PI / 4, TILE = 360, COLUMNS = 5;
+  const THREE = window.THREE, ANGLE = Math.PI / 4, LEAST_HEIGHT = 1e-4, TILE = 360, COLUMNS = 5;
   const { scene } = await window.load(Uint8Array.from(atob(encoded), c => c.charCodeAt(0)).buffer);
   const skins = [];
   scene.traverse(o => { if (o.isSkinnedMesh) skins.push(o); });
@@ -130,6 +130,9 @@ async function measure({ encoded, all }) {
             at(bent, index[f + k], q[k]);
           }
           normal(p, n).applyAxisAngle(axis, w * angle);
+          // Slivers that nobody can see have no side to turn.
+          const longest = Math.max(p[0].distanceTo(p[1]), p[1].distanceTo(p[2]), p[2].distanceTo(p[0]));
+          if (n.length() < LEAST_HEIGHT * diagonal * longest) continue;
           if (n.dot(normal(q, m)) >= 0) continue;
           ++row.over;
           row.far = Math.max(row.far, p[0].clone().add(p[1]).add(p[2]).divideScalar(3).distanceTo(joint) / diagonal);
