@@ -14,7 +14,7 @@ namespace {
 // shares where they are steepest; 0.87 would turn over a face that lies along the slope.
 constexpr double kSteepest = 0.6;
 
-// Along faces shares are lowered by steps of this at least, so that it ends.
+// Over faces weights are lowered by steps of this at least, so that it ends.
 constexpr double kLeastStep = 1e-4;
 
 class Slopes {

@@ -19,8 +19,8 @@ struct LowerShare {
 // wider than a right angle, by at most a share of length / r. That leaves limbs alone, whose radius is about
 // as far as their bones' blends are long; it closes what the surface map tears: two fingers side by side on a
 // palm, a fold between an arm and the trunk. Weights come to no vertex that had none, so other limbs stay
-// where they are. Ascending by vertex, then by joint. Only of the joints for which `asked` is not 0.
-// O(vertices + n log n) for n vertices and joints that change.
+// where they are, and no vertex follows a joint more than the one that it hangs on. Ascending by vertex, then
+// by joint. O(vertices + n log n) for n vertices and joints that change.
 std::vector<LowerShare> bound_slopes(const SurfaceSnapshot& surface, const Rig& rig,
                                      const std::vector<BoneShare>& shares);
 

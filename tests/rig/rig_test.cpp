@@ -94,15 +94,24 @@ Shape webbed_limbs_and_empty_arc() {
   return shape;
 }
 
-// A tall block with an arc that forks before it reaches the side, where a vertex follows each prong's end.
-Shape block_with_fork_inside() {
+// A tall block and the 29 nodes of its axis, to which no vertex is mapped.
+Shape block_with_axis() {
   test::VoxelSolid solid;
   solid.box({0, 0, 0}, {12, 12, 40});
   Shape shape{make_snapshot(test::to_mesh(test::boundary(solid))), {}, {}};
   shape.soup = to_polygon_soup(shape.surface);
+  for (int z = 6; z <= 34; ++z) shape.skeleton.nodes.push_back({Vector3(6, 6, z), 6, 48, 48, 0});
+  for (Index n = 0; n + 1 < 29; ++n) shape.skeleton.edges.push_back({n, n + 1});
+  return shape;
+}
+
+// Of a vertex that no limb of the block has: the node of the axis at its height.
+Index axis_node(const Vector3& p) { return std::clamp(static_cast<Index>(std::lround(p.z())), 6, 34) - 6; }
+
+// A tall block with an arc that forks before it reaches the side, where a vertex follows each prong's end.
+Shape block_with_fork_inside() {
+  Shape shape = block_with_axis();
   CurveSkeleton& skeleton = shape.skeleton;
-  for (int z = 6; z <= 34; ++z) skeleton.nodes.push_back({Vector3(6, 6, z), 6, 48, 48, 0});
-  for (Index n = 0; n + 1 < 29; ++n) skeleton.edges.push_back({n, n + 1});
   for (int x = 7; x <= 9; ++x) {  // 29 to 31
     skeleton.nodes.push_back({Vector3(x, 6, 20), 1, 6, 4, 0});
     skeleton.edges.push_back({x == 7 ? 14 : 27 + x - 6, 28 + x - 6});
@@ -116,21 +125,15 @@ Shape block_with_fork_inside() {
   for (const Vector3& p : shape.soup.points) {
     const bool on_limb =
         p.x() > 11.5 && std::abs(std::abs(p.y() - 6) - 3) < 0.1 && std::abs(p.z() - 20) < 0.1;
-    skeleton.node_of_vertex.push_back(
-        on_limb ? (p.y() < 6 ? 34 : 37) : std::clamp(static_cast<Index>(std::lround(p.z())), 6, 34) - 6);
+    skeleton.node_of_vertex.push_back(on_limb ? (p.y() < 6 ? 34 : 37) : axis_node(p));
   }
   return shape;
 }
 
 // A tall block with an arc that hardly leaves it: of the vertices on its side two layers follow its end.
 Shape block_with_flat_limb() {
-  test::VoxelSolid solid;
-  solid.box({0, 0, 0}, {12, 12, 40});
-  Shape shape{make_snapshot(test::to_mesh(test::boundary(solid))), {}, {}};
-  shape.soup = to_polygon_soup(shape.surface);
+  Shape shape = block_with_axis();
   CurveSkeleton& skeleton = shape.skeleton;
-  for (int z = 6; z <= 34; ++z) skeleton.nodes.push_back({Vector3(6, 6, z), 6, 48, 48, 0});
-  for (Index n = 0; n + 1 < 29; ++n) skeleton.edges.push_back({n, n + 1});
   for (int x = 7; x <= 11; ++x) {
     const Index n = static_cast<Index>(skeleton.nodes.size());
     skeleton.nodes.push_back({Vector3(x, 6, 20), 1, 6, 4, 0});
@@ -138,8 +141,7 @@ Shape block_with_flat_limb() {
   }
   for (const Vector3& p : shape.soup.points) {
     const bool on_limb = p.x() > 11.5 && std::abs(p.y() - 6) < 1.5 && std::abs(p.z() - 20) < 1.5;
-    skeleton.node_of_vertex.push_back(
-        on_limb ? 33 : std::clamp(static_cast<Index>(std::lround(p.z())), 6, 34) - 6);
+    skeleton.node_of_vertex.push_back(on_limb ? 33 : axis_node(p));
   }
   return shape;
 }
