@@ -4,6 +4,8 @@
 #include <catch2/catch.hpp>
 #include <numeric>
 
+#include "mspskel/mesh/default_mesh.h"
+
 using namespace mspskel;
 
 namespace {

@@ -1,6 +1,7 @@
 // Builds a tetrahedron in OpenMesh, as a user would, and asks the installed library for its snapshot.
 #include <cstdio>
 
+#include "mspskel/mesh/default_mesh.h"
 #include "mspskel/mesh/surface_snapshot.h"
 
 int main() {

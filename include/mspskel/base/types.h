@@ -22,4 +22,10 @@ inline constexpr Index kNone = -1;
 
 inline constexpr double kPi = 3.14159265358979323846;
 
+// From any type with three coordinates, such as a mesh's own.
+template <class Point>
+Vector3 to_vector3(const Point& p) {
+  return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
+}
+
 }  // namespace mspskel

@@ -4,7 +4,7 @@
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
-#include "mspskel/base/types.h"
+#include "mspskel/mesh/default_mesh_fwd.h"
 
 namespace mspskel {
 
@@ -12,11 +12,5 @@ struct DefaultTraits : OpenMesh::DefaultTraits {
   using Point = OpenMesh::Vec3d;
   using Normal = OpenMesh::Vec3d;
 };
-using DefaultMesh = OpenMesh::TriMesh_ArrayKernelT<DefaultTraits>;
-
-template <class Point>
-Vector3 to_vector3(const Point& p) {
-  return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
-}
 
 }  // namespace mspskel

@@ -1,14 +1,13 @@
 // A closed triangle mesh as flat arrays in a normalised frame: what every stage walks on.
 #pragma once
 
-#include <OpenMesh/Core/Mesh/Handles.hh>
 #include <cmath>
 #include <string>
 #include <vector>
 
 #include "mspskel/base/error.h"
 #include "mspskel/base/types.h"
-#include "mspskel/mesh/default_mesh.h"
+#include "mspskel/mesh/default_mesh_fwd.h"
 
 namespace mspskel {
 
