@@ -6,12 +6,14 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <map>
 #include <set>
 #include <string>
 
 #include "mspskel/limbs/detail/part_shape.h"
 #include "mspskel/mesh/coarsen_surface.h"
 #include "support/solids.h"
+#include "topology/voxel_solids.h"
 
 using namespace mspskel;
 using namespace mspskel::test;
@@ -128,6 +130,28 @@ TEST_CASE("The corners of bodies that carry limbs are no limbs") {
       return tip.kind == TipKind::kLimb || tip.kind == TipKind::kEar;
     });
     CHECK(static_cast<std::size_t>(limbs) == body.limbs);
+  }
+}
+
+TEST_CASE("The blunt ends of a plank beyond the legs that carry it are no limbs") {
+  constexpr int kWidth = 16, kHeight = 20, kLeg = 2, kBetween = 24;
+  for (const int end : {6, 8, 10}) {
+    CAPTURE(end);
+    VoxelSolid plank;
+    for (int x = -end; x < kBetween + end; ++x)
+      for (int z = 0; z < kWidth; ++z) plank.cells.insert({x, kHeight, z});
+    for (const int x : {0, kBetween - kLeg})
+      for (const int z : {2, kWidth - 2 - kLeg})
+        for (int y = 0; y < kHeight; ++y)
+          for (int i = 0; i < kLeg * kLeg; ++i) plank.cells.insert({x + i % kLeg, y, z + i / kLeg});
+    const Solid solid(to_mesh(boundary(plank)));
+    std::size_t feet = 0, ends = 0;
+    for (const LimbTip& tip : tips_of(solid)) {
+      if (tip.kind != TipKind::kLimb && tip.kind != TipKind::kEar) continue;
+      ++(solid.model(tip.position).y() < 1 ? feet : ends);
+    }
+    CHECK(feet == 4);
+    CHECK(ends == 0);
   }
 }
 

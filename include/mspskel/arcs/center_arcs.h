@@ -60,10 +60,10 @@ VisibleSection visible_section(const BoundingVolumeHierarchy& solid, const Vecto
 // Resamples every arc at options.step, those whose half width is below 0.006 of the extent at steps as much
 // shorter as they are thinner, and centres it in sections across its direction, which is taken over a stretch
 // as long as the solid is thick, less where the arc bends: minimises Σ (x − c)ᵀ W (x − c) + μ Σ|x − mean of
-// neighbours|² over all points, with c the section's centre, W = w across the arc and along it and
-// w · narrowness where the section is wide, w = roundness^1.5 / (1 + (|c − x| / 0.7 R)⁴) and
+// neighbours|² over all points, with c the section's centre, W = w · roundness^1.5 · narrowness along the
+// section's wide axis and w across it, w = 1 / (1 + (|c − x| / 0.7 R)⁴) and
 // μ = smoothness · (distance to the surface / own step)² · (0.008 / options.step)². So an arc keeps to the
-// middle between near walls and is straight between far ones. Near a joint, within 1.7 radii of its ball,
+// middle between near walls and is straight between far ones. Near a joint, within two radii of its ball,
 // sections are those of what the arc leaves, so W falls to 0 there with the distance. Leaf ends stay in their
 // section, or where they are if `held` names their hubs; joints are nearly free. Steps that would cut a
 // corner through the surface keep the corner between them. A point moves only as far as its edges stay off

@@ -61,10 +61,18 @@ inline bool is_blunt_when_flat(double depth_over_mouth, double slenderness) {
 // A part that is wider than what carries it is thick, as the corners of plates and the rims of walls.
 inline bool is_wider_than_carrier(double half_width, double carrier) { return half_width > 1.25 * carrier; }
 
+// A plate is as wide as half of the contour where it leaves the rest, and its surface faces itself across
+// less than an eighth of that.
+inline bool is_plate(const LimbMeasures& m) {
+  const double width = m.depth_over_mouth > 0 ? 3.14159265358979323846 * m.depth / m.depth_over_mouth : 0.0;
+  return 2 * m.half_chord < 0.125 * width;
+}
+
 // The corner of a body: blunt, and widening in proportion to its depth or wider than its carrier. A limb is
 // about as wide at its root as before it. Where the whole body lies behind the surface, less of a taper will
-// do.
+// do. The corner or the blunt end of a plate does not widen.
 inline bool is_corner(const LimbMeasures& m) {
+  if (is_plate(m) && is_blunt_when_flat(m.depth_over_mouth, m.slenderness)) return true;
   const bool widens = m.mean_depth > (m.half_chord > 3 * m.half_width ? 0.61 : 0.655);
   return is_blunt(m.depth_over_mouth) &&
          (widens || is_wider_than_carrier(m.half_width, m.carrier_half_chord));

@@ -1,5 +1,5 @@
-// The name of the mesh type in mesh/default_mesh.h, for declarations: its definition brings in OpenMesh, half a
-// second of a user's compile time.
+// The name of the mesh type in mesh/default_mesh.h, for declarations: its definition brings in OpenMesh, half
+// a second of a user's compile time.
 #pragma once
 
 namespace OpenMesh {

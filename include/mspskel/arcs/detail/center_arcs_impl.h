@@ -153,8 +153,9 @@ inline Pull section_pull(const BoundingVolumeHierarchy& solid, const Vector3& x,
   // A second difference grows with the square of the step; the reference makes the curve independent of it.
   constexpr double kReferenceStep = 0.008;
   const double thickness = section.clearance * kReferenceStep / (options.step * options.step * share);
-  const double weight = std::pow(section.roundness, 1.5) / (1 + std::pow(move, 4));
-  const Eigen::Matrix3d less = (1 - section.narrowness) * section.wide * section.wide.transpose();
+  const double weight = 1 / (1 + std::pow(move, 4));
+  const double along_wide = std::pow(section.roundness, 1.5) * section.narrowness;
+  const Eigen::Matrix3d less = (1 - along_wide) * section.wide * section.wide.transpose();
   return {section.centre, weight * (Eigen::Matrix3d::Identity() - less), thickness * thickness};
 }
 
@@ -162,7 +163,7 @@ inline Pull section_pull(const BoundingVolumeHierarchy& solid, const Vector3& x,
 // weights fall with the distance.
 inline void loosen_near_joints(const ArcPoints& points, const BoundingVolumeHierarchy& solid,
                                const Execution& execution, std::vector<Pull>& pulls) {
-  constexpr double kReach = 1.7;  // radii of the joint's ball
+  constexpr double kReach = 2;  // radii of the joint's ball
   std::vector<double> reach(points.x.size(), 0.0);
   parallel_for(
       points.count(), "arcs", execution, [] { return 0; },
