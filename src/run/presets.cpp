@@ -15,7 +15,9 @@ std::string as_word(const std::pair<std::string, std::string>& setting) {
 const std::vector<Preset>& presets() {
   static const std::vector<Preset> all{
       {"general", "anything", {}},
-      {"vessels", "blood vessels and other branching tubes", {{"coarsen", "false"}, {"root", "open"}}},
+      {"vessels",
+       "blood vessels and other branching tubes",
+       {{"coarsen", "false"}, {"root", "open"}, {"smoothness", "3"}}},
       {"neurons",
        "nerve cells with thin, far-reaching processes",
        {{"coarsen", "false"}, {"smallest", "0.001"}}},
