@@ -105,8 +105,8 @@ Checked CheckCommand::check_against(const MeshInput& input, const CurveSkeleton&
   Checked checked;
   checked.wrapped = input.wrapped.has_value();
   SkeletonChecks& checks = checked.checks;
-  checks = check_skeleton(surface, solid, skeleton, execution_);
   const SolidHierarchies solids(surface, solid, execution_.progress);
+  checks = check_skeleton(surface, solids, skeleton, execution_);
   checked.certificate = certify(surface, cocycles, solids, skeleton, CertificateDepth::kFull, execution_);
   checks.genus -= checked.certificate.small_handles;
   checks.topology = checks.b0 == checks.components && checks.b1 == checks.genus;

@@ -116,8 +116,8 @@ std::string checks_text(const Extraction& self, const CurveSkeleton& skeleton) {
   const nb::gil_scoped_release unlocked;
   const ExtractResult& result = self.made.result;
   const CurveSkeleton own = self.made.input.of_surface(skeleton);
-  const SkeletonChecks checks = check_skeleton(result.surface, *result.solid, own);
   const SolidHierarchies solids(result.surface, *result.solid);
+  const SkeletonChecks checks = check_skeleton(result.surface, solids, own);
   const TopologyCertificate certificate =
       cli::certify(result.surface, result.cocycles, solids, own, cli::CertificateDepth::kFull);
   return cli::report_text(

@@ -3,6 +3,7 @@
 
 #include "mspskel/base/progress.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
+#include "mspskel/mesh/solid_hierarchies.h"
 #include "mspskel/skeleton/curve_skeleton.h"
 
 namespace mspskel {
@@ -50,6 +51,9 @@ void validate(const CurveSkeleton& skeleton);
 // parallel; does not depend on the threads. Throws UsageError for a skeleton that is not valid,
 // NoSkeletonError for one without nodes, Cancelled if the progress callback asks to stop.
 SkeletonChecks check_skeleton(const SurfaceSnapshot& snapshot, const BoundingVolumeHierarchy& hierarchy,
+                              const CurveSkeleton& skeleton, const Execution& execution = {});
+// The same with the components' solids at hand.
+SkeletonChecks check_skeleton(const SurfaceSnapshot& snapshot, const SolidHierarchies& solids,
                               const CurveSkeleton& skeleton, const Execution& execution = {});
 
 }  // namespace mspskel

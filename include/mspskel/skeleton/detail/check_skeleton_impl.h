@@ -199,6 +199,12 @@ MSPSKEL_INLINE void validate(const CurveSkeleton& skeleton) {
 MSPSKEL_INLINE SkeletonChecks check_skeleton(const SurfaceSnapshot& snapshot,
                                              const BoundingVolumeHierarchy& hierarchy,
                                              const CurveSkeleton& skeleton, const Execution& execution) {
+  return check_skeleton(snapshot, SolidHierarchies(snapshot, hierarchy, execution.progress), skeleton,
+                        execution);
+}
+
+MSPSKEL_INLINE SkeletonChecks check_skeleton(const SurfaceSnapshot& snapshot, const SolidHierarchies& solids,
+                                             const CurveSkeleton& skeleton, const Execution& execution) {
   validate(skeleton);
   if (skeleton.nodes.empty()) throw NoSkeletonError("the skeleton has no nodes");
   SkeletonChecks checks;
@@ -206,7 +212,6 @@ MSPSKEL_INLINE SkeletonChecks check_skeleton(const SurfaceSnapshot& snapshot,
   checks.diagonal = diagonal * snapshot.frame.scale;
   detail::check_topology(snapshot, skeleton, checks);
 
-  const SolidHierarchies solids(snapshot, hierarchy, execution.progress);
   const detail::PlacedSkeleton placed(snapshot, solids, skeleton);
   detail::check_containment(placed, skeleton, snapshot.frame.scale, checks);
 
