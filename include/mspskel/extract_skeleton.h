@@ -79,7 +79,7 @@ struct ExtractResult {
   SurfaceSnapshot surface;
   // Of `surface`; empty if it has several components, which have solids of their own.
   std::shared_ptr<const BoundingVolumeHierarchy> solid;
-  std::optional<CoarseSurface> coarse;
+  std::optional<CoarseSurface> coarse;  // of `surface`; empty where edges of the input were cut
   VertexSlices initial_slices;  // before cone refinement; equal to slices where nothing refines
   VertexSlices slices;
   SkeletonMesh skeleton_mesh;

@@ -20,6 +20,11 @@ class Shapes(ProgramTest):
         self.succeed("render", "a.ply", "a.png")
         self.succeed("render", mesh, "--segments", "a.seg", "b.png")
 
+    def test_parts_of_a_mesh_whose_edges_are_cut_before_it_is_coarsened(self):
+        mesh = self.sample("capsule", 500)
+        self.succeed(mesh, "a.skel", "--segments", "a.seg", "--coarse-vertices", 200, "-q")
+        self.assertEqual(len((self.folder / "a.seg").read_text().split()), self.faces(mesh))
+
     def test_wanted_number_of_parts(self):
         mesh = self.sample("quadruped", 2500)
         self.succeed(mesh, "a.skel", "--segments", "a.seg", "--parts", 4, "-q")

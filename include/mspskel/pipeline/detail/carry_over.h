@@ -45,6 +45,7 @@ inline void restrict_to_input(SurfaceSnapshot input, const std::vector<Index>& o
                               const ExtractOptions& options, ExtractResult& result) {
   result.surface = std::move(input);
   result.solid.reset();
+  result.coarse.reset();  // the other surface's vertices merged into its own, not the input's alone
   result.initial_slices = carried_over(result.initial_slices, own);
   result.slices = carried_over(result.slices, own);
   carry_over(result.skeleton_mesh, result.surface, own);
