@@ -3,9 +3,41 @@
 #include <catch2/catch.hpp>
 
 #include "center/planar_shapes.h"
+#include "support/meshes.h"
 
 using namespace mspskel;
 using namespace mspskel::test;
+
+namespace {
+
+// A star with `points` rays of random length.
+Polygon random_star(Index points, double size, const Vector2& centre, mspskel::test::Random& random) {
+  Polygon p;
+  for (Index i = 0; i < points; ++i) {
+    const double t = 2 * kPi * i / points, r = size * random.uniform(0.3, 1);
+    p.push_back(centre + r * Vector2(std::cos(t), std::sin(t)));
+  }
+  return p;
+}
+
+bool inside_by_all_segments(const PlanarRegion& region, const Vector2& p) {
+  bool inside = false;
+  for (const PlanarRegion::Ring& ring : region.rings())
+    for (Index i = ring.begin; i < ring.begin + ring.points; ++i) {
+      const Vector2 a = region.point(i), b = region.point(i + 1);
+      if ((a.y() > p.y()) == (b.y() > p.y())) continue;
+      if ((cross(a - p, b - p) > 0) == (b.y() > p.y())) inside = !inside;
+    }
+  return inside;
+}
+
+Index segments_asked(const PlanarRegion& region, double y) {
+  Index count = 0;
+  region.for_each_segment_at(y, [&](Index) { ++count; });
+  return count;
+}
+
+}  // namespace
 
 TEST_CASE("area, perimeter and centroids of known shapes") {
   PlanarRegion region(rectangle(4, 1, 5));
@@ -70,6 +102,63 @@ TEST_CASE("containment, distance and first hit with holes and repeated points") 
   CHECK(region.first_hit({1, 0}, {2, 0}) == Approx(0.5));
   CHECK(region.first_hit({1, 0}, {0.9, 0}) == 2);
   CHECK(region.first_hit({1.5, -1.5}, {0, 1}) == 2);
+}
+
+TEST_CASE("containment is the parity over all segments, however the rings come") {
+  mspskel::test::Random random(3);
+  PlanarRegion region;
+  for (Index round = 0; round < 60; ++round) {
+    // Sizes about those at which strips are made, and long flat or steep rings.
+    const Vector2 stretch(round % 3 == 1 ? 50 : 1, round % 3 == 2 ? 50 : 1);
+    const auto stretched = [&](Polygon p) {
+      for (Vector2& q : p) q = q.cwiseProduct(stretch);
+      return p;
+    };
+    region.set_outer(stretched(random_star(3 + random.below(300), 4, {0, 0}, random)));
+    const Index holes = random.below(30);
+    for (Index k = 0; k < holes; ++k) {
+      const double x = random.uniform(-3, 3), y = random.uniform(-3, 3);
+      region.add_hole(stretched(random_star(3 + random.below(200), 0.5, {x, y}, random)));
+    }
+    for (Index k = 0; k < 100; ++k) {
+      const double x = random.uniform(-5, 5), y = random.uniform(-5, 5);
+      const Vector2 p = stretch.cwiseProduct(Vector2(x, y));
+      REQUIRE(region.contains(p) == inside_by_all_segments(region, p));
+    }
+    for (Index k = 0; k < region.rings()[0].points; k += 7) {  // at levels of corners
+      const Vector2 p(stretch.x() * random.uniform(-5, 5), region.point(k).y());
+      REQUIRE(region.contains(p) == inside_by_all_segments(region, p));
+    }
+  }
+}
+
+TEST_CASE("containment comes by about the segments at a point's level") {
+  mspskel::test::Random random(4);
+  const auto mean = [&](const PlanarRegion& region) {
+    double sum = 0;
+    for (Index k = 0; k < 200; ++k) sum += segments_asked(region, random.uniform(-1, 1));
+    return sum / 200;
+  };
+  // Two segments of an ellipse are level with a point, however many there are.
+  for (const Index n : {100, 1000, 10000}) CHECK(mean(PlanarRegion(ellipse(2, 1, n))) < 8);
+  // A plate with n x n holes: a level meets 2n of them.
+  for (const Index n : {10, 20, 40}) {
+    PlanarRegion plate(rectangle(2, 2, 4 * n));
+    for (Index i = 0; i < n * n; ++i) {
+      const Vector2 centre((i % n * 2 + 1.0) / n - 1, (i / n * 2 + 1.0) / n - 1);
+      plate.add_hole(ellipse(0.6 / n, 0.6 / n, 16, centre));
+    }
+    CHECK(mean(plate) < 8 * n);
+  }
+}
+
+TEST_CASE("rings with levels that are not finite have no strips") {
+  Polygon p = ellipse(2, 1, 200);
+  p[100].y() = std::numeric_limits<double>::quiet_NaN();
+  PlanarRegion region(ellipse(4, 4, 200));
+  region.add_hole(p);
+  for (const Vector2& q : {Vector2(0, 0.1), Vector2(3, 0.1), Vector2(5, 0.1), Vector2(3, 2)})
+    CHECK(region.contains(q) == inside_by_all_segments(region, q));
 }
 
 TEST_CASE("resampling keeps short rings and the shape of long ones") {

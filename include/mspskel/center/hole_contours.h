@@ -31,8 +31,7 @@ bool may_have_holes(const SliceRegion& slice, const BoundingVolumeHierarchy& sol
 
 // Adds the contours that bound holes directly inside the slice's outer contour; islands inside holes and what
 // they contain stay out. Returns the number of holes. Cost: O(log faces + crossings of the plane in the box
-// round the contour), and O(points) a hole for those of the contour and of the holes whose boxes its own
-// meets.
+// round the contour), and for a hole what PlanarRegion::contains takes.
 Index add_hole_contours(const SliceTracer& tracer, const BoundingVolumeHierarchy& solid, SliceRegion& slice);
 
 }  // namespace mspskel

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "mspskel/base/types.h"
+#include "mspskel/center/detail/segment_strips.h"
 #include "mspskel/slice/contour.h"
 
 namespace mspskel {
@@ -39,7 +40,6 @@ class PlanarRegion {
     Index points = 0;    // real ones
     double perimeter = 0.0;
     double area = 0.0;  // signed: negative for holes
-    Eigen::AlignedBox2d box;
   };
 
   PlanarRegion() = default;
@@ -72,8 +72,12 @@ class PlanarRegion {
 
   double mean_width() const;  // 2 · area / length of all rings: a strip's width, a disc's radius
 
-  // By parity over all rings. Cost: O(rings + points of the rings whose box p lies in).
+  // By parity over all rings. Cost: that of for_each_segment_at.
   bool contains(const Vector2& p) const;
+  // Calls visit(i) once for every segment with one end above the level y and one not above it, and for a few
+  // others: over all levels in the mean about as many as a level meets, in regions of 64 segments or more.
+  template <class Visit>
+  void for_each_segment_at(double y, Visit visit) const;
   double distance(const Vector2& p) const;  // to the nearest point of all rings
   // The least t in (0, 1] for which p + t·d lies on a ring; 2 if there is none.
   double first_hit(const Vector2& p, const Vector2& d) const;
@@ -96,7 +100,18 @@ class PlanarRegion {
 
   std::vector<Ring> rings_;
   std::vector<double> x_, y_, length_, tx_, ty_;
+  detail::slice_centre::SegmentStrips strips_;
 };
+
+template <class Visit>
+void PlanarRegion::for_each_segment_at(double y, Visit visit) const {
+  if (!strips_.empty()) {
+    strips_.for_each_at(y, visit);
+    return;
+  }
+  for (const Ring& ring : rings_)
+    for (Index i = ring.begin; i < ring.begin + ring.segments; ++i) visit(i);
+}
 
 // The polygon of a contour in a frame of its plane.
 std::vector<Vector2> flatten(const std::vector<Vector3>& points, const PlaneFrame& frame);

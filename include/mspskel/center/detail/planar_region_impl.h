@@ -41,6 +41,7 @@ MSPSKEL_INLINE void PlanarRegion::set_outer(const std::vector<Vector2>& polygon)
   length_.clear();
   tx_.clear();
   ty_.clear();
+  strips_.clear();
   add_ring(polygon, 1.0);
 }
 
@@ -55,7 +56,6 @@ MSPSKEL_INLINE void PlanarRegion::add_ring(const std::vector<Vector2>& polygon, 
   for (Index i = 1; i + 1 < ring.points; ++i)
     twice += cross(polygon[i] - polygon[0], polygon[i + 1] - polygon[0]);
   ring.area = sign * std::abs(twice) / 2;
-  for (const Vector2& p : polygon) ring.box.extend(p);
   const bool reverse = twice * sign < 0;  // the first point stays first
   const auto drop_tail = [&](std::vector<double>& a, std::size_t n) { a.resize(n, 0.0); };
   ring.begin = rings_.empty() ? 0 : rings_.back().begin + rings_.back().segments + 1;
@@ -80,6 +80,7 @@ MSPSKEL_INLINE void PlanarRegion::add_ring(const std::vector<Vector2>& polygon, 
     ring.perimeter += length;
   }
   rings_.push_back(ring);
+  strips_.add(y_, ring.begin, ring.begin + ring.segments);
 }
 
 MSPSKEL_INLINE bool PlanarRegion::valid() const {
@@ -130,17 +131,14 @@ MSPSKEL_INLINE double PlanarRegion::mean_width() const {
 
 MSPSKEL_INLINE bool PlanarRegion::contains(const Vector2& p) const {
   int parity = 0;
-  for (const Ring& ring : rings_) {
-    if (!ring.box.contains(p)) continue;
-    const double *x = x_.data() + ring.begin, *y = y_.data() + ring.begin;
-    for (Index i = 0; i < ring.segments; ++i) {
-      const bool a = y[i] > p.y(), b = y[i + 1] > p.y();
-      // The crossing lies to the right of p: a sidedness test without division, its sign turned for downward
-      // edges.
-      const double side = (x[i] - p.x()) * (y[i + 1] - p.y()) - (x[i + 1] - p.x()) * (y[i] - p.y());
-      parity ^= static_cast<int>(a != b) & static_cast<int>((side > 0) == b);
-    }
-  }
+  const double *x = x_.data(), *y = y_.data();
+  for_each_segment_at(p.y(), [&](Index i) {
+    const bool a = y[i] > p.y(), b = y[i + 1] > p.y();
+    // The crossing lies to the right of p: a sidedness test without division, its sign turned for downward
+    // edges.
+    const double side = (x[i] - p.x()) * (y[i + 1] - p.y()) - (x[i + 1] - p.x()) * (y[i] - p.y());
+    parity ^= static_cast<int>(a != b) & static_cast<int>((side > 0) == b);
+  });
   return parity != 0;
 }
 
