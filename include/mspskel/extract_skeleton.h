@@ -80,7 +80,7 @@ struct ExtractResult {
   // Of `surface`; empty if it has several components, which have solids of their own.
   std::shared_ptr<const BoundingVolumeHierarchy> solid;
   std::optional<CoarseSurface> coarse;  // of `surface`; empty where edges of the input were cut
-  VertexSlices initial_slices;  // before cone refinement; equal to slices where nothing refines
+  VertexSlices initial_slices;          // before cone refinement; equal to slices where nothing refines
   VertexSlices slices;
   SkeletonMesh skeleton_mesh;
   VolumeCocycles cocycles;      // of `surface`
