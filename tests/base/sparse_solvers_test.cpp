@@ -54,6 +54,38 @@ TEST_CASE("Steps end where elimination does, on grids with springs of any stiffn
   }
 }
 
+TEST_CASE("Factors solve for three right sides as for one after the other") {
+  constexpr int kSize = 300;
+  Random random(9);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int i = 0; i < kSize; ++i) {
+    entries.emplace_back(i, i, 20.0);
+    for (int k = 0; k < 4; ++k) {
+      const Index j = random.below(kSize);
+      const double value = random.uniform(-1, 1);
+      entries.emplace_back(i, j, value);
+      entries.emplace_back(j, i, value);
+    }
+  }
+  Eigen::SparseMatrix<double> matrix(kSize, kSize);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  detail::IncompleteFactors factors;
+  factors.setDroptol(1e-4);
+  factors.setFillfactor(3);
+  factors.compute(matrix);
+  Eigen::MatrixX3d right(kSize, 3);
+  for (int i = 0; i < kSize; ++i) right.row(i) = random.in_ball().transpose();
+  const detail::LineFactors line_factors(matrix);
+  const Eigen::MatrixX3d together = detail::solve_rows(factors, right),
+                         on_line = detail::solve_rows(line_factors, right);
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::VectorXd alone = factors.solve(Eigen::VectorXd(right.col(k))),
+                          alone_on_line = line_factors.solve(Eigen::VectorXd(right.col(k)));
+    CHECK((together.col(k) - alone).norm() <= 1e-13 * alone.norm());
+    CHECK((on_line.col(k) - alone_on_line).norm() <= 1e-13 * alone_on_line.norm());
+  }
+}
+
 TEST_CASE("Coupled coordinates are solved in steps with factors of what they have in common") {
   for (const bool has_many_cycles : {false, true}) {
     Random random(5);

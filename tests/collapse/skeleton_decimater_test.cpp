@@ -43,6 +43,29 @@ std::vector<CollapseOptions> option_variants() {
   return variants;
 }
 
+// By a look at everything: the longest edge with one face and the largest face, kNone if there are none; of
+// equal ones the first.
+std::pair<Index, Index> rest_of_sheets(const SkeletonDecimater& decimater) {
+  const SkeletonComplex& c = decimater.complex();
+  const auto at = [&](Index v) { return decimater.merging_set(v).position(); };
+  std::pair<Index, Index> rest{kNone, kNone};
+  float longest = 0;
+  for (Index e = 0; e < c.edge_capacity(); ++e) {
+    if (!c.is_edge(e) || c.face_count(e) != 1) continue;
+    const auto length = static_cast<float>((at(c.ends(e)[0]) - at(c.ends(e)[1])).norm() + 1e-10);
+    if (length > longest) longest = length, rest.first = e;
+  }
+  double largest = -1;
+  for (Index f = 0; f < c.face_capacity(); ++f) {
+    if (!c.is_face(f)) continue;
+    const auto darts = c.face_darts(f);
+    const Vector3 p = at(c.origin(darts[0]));
+    const double area = (at(c.origin(darts[1])) - p).cross(at(c.origin(darts[2])) - p).norm();
+    if (area > largest) largest = area, rest.second = f;
+  }
+  return rest;
+}
+
 // Steps to the end and checks after every operation; returns the topology at the end.
 ComplexTopology collapse_checked(SkeletonComplex complex, std::vector<MergingSet> sets,
                                  const CollapseOptions& options) {
@@ -54,7 +77,18 @@ ComplexTopology collapse_checked(SkeletonComplex complex, std::vector<MergingSet
   SkeletonDecimater decimater(std::move(complex), std::move(sets), options);
   const SkeletonComplex& c = decimater.complex();
   int steps = 0;
+  CollapseCounts counts;
+  std::pair<Index, Index> rest{kNone, kNone};
   do {
+    if (decimater.counts().thinned_faces > counts.thinned_faces) {
+      REQUIRE(rest.first != kNone);
+      REQUIRE_FALSE(c.is_edge(rest.first));
+    } else if (decimater.counts().deleted_faces > counts.deleted_faces) {
+      REQUIRE(rest.first == kNone);
+      REQUIRE_FALSE(c.is_face(rest.second));
+    }
+    counts = decimater.counts();
+    rest = rest_of_sheets(decimater);
     REQUIRE(c.find_violation() == "");
     std::vector<Index> members(static_cast<std::size_t>(c.vertex_capacity()), 0);
     for (Index v = 0; v < c.vertex_capacity(); ++v) ++members[decimater.node_of(v)];

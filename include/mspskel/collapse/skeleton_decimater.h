@@ -7,6 +7,7 @@
 #include "mspskel/base/progress.h"
 #include "mspskel/collapse/collapse_options.h"
 #include "mspskel/collapse/complex_topology.h"
+#include "mspskel/collapse/detail/sheet_rest.h"
 #include "mspskel/collapse/merging_set.h"
 #include "mspskel/collapse/saturation.h"
 #include "mspskel/collapse/skeleton_complex.h"
@@ -120,6 +121,8 @@ class SkeletonDecimater {
   void reopen_refused(Index node);
   bool leave_dead_end();
   bool collapse_to_parallel_edges();
+  double face_area(Index f) const;
+  void delete_face(Index f);
   bool thin_sheet();
   void delete_largest_face();
   bool cut_surplus_loops();
@@ -134,6 +137,7 @@ class SkeletonDecimater {
   std::vector<State> state_;
   std::vector<Key> heap_;
   std::vector<Index> living_;  // scratch of the dead ends: a superset of the living edges
+  detail::SheetRest sheets_;
   double longest_ = 0.0;       // ‖e_max‖
 };
 

@@ -207,6 +207,7 @@ MSPSKEL_INLINE bool SkeletonDecimater::try_collapse(Index e, bool allow_parallel
   from_parent_[gone] = std::move(way);
   nodes_[kept].revision += nodes_[gone].revision + 1;
   refresh(kept);
+  sheets_.touch(kept);
   // A merged edge may have gained the faces that make it collapsible again.
   for (const Index m : complex_.merged_edges())
     if (complex_.is_edge(m) && complex_.face_count(m) > 0 &&
@@ -242,15 +243,17 @@ MSPSKEL_INLINE void SkeletonDecimater::reopen_refused(Index node) {
 
 MSPSKEL_INLINE bool SkeletonDecimater::leave_dead_end() {
   if (complex_.face_count() == 0) return options_.keep_topology && cut_surplus_loops();
-  if (living_.empty()) living_ = detail::living_edges(complex_);
-  living_.erase(std::remove_if(living_.begin(), living_.end(), [&](Index e) { return !complex_.is_edge(e); }),
-                living_.end());
   if (options_.dead_end == DeadEnd::kParallelEdges && collapse_to_parallel_edges()) return true;
+  sheets_.update(
+      complex_, [&](Index e) { return rounded_length(e); }, [&](Index f) { return face_area(f); });
   if (!thin_sheet()) delete_largest_face();
   return true;
 }
 
 MSPSKEL_INLINE bool SkeletonDecimater::collapse_to_parallel_edges() {
+  if (living_.empty()) living_ = detail::living_edges(complex_);
+  living_.erase(std::remove_if(living_.begin(), living_.end(), [&](Index e) { return !complex_.is_edge(e); }),
+                living_.end());
   std::vector<Key> candidates;
   for (const Index e : living_)
     if (complex_.face_count(e) > 0) candidates.push_back(key(e));
@@ -263,16 +266,26 @@ MSPSKEL_INLINE bool SkeletonDecimater::collapse_to_parallel_edges() {
   return false;
 }
 
+MSPSKEL_INLINE double SkeletonDecimater::face_area(Index f) const {
+  const auto darts = complex_.face_darts(f);
+  const Vector3& p = nodes_[complex_.origin(darts[0])].position;
+  const Vector3 a = nodes_[complex_.origin(darts[1])].position - p,
+                b = nodes_[complex_.origin(darts[2])].position - p;
+  return a.cross(b).norm();
+}
+
+MSPSKEL_INLINE void SkeletonDecimater::delete_face(Index f) {
+  for (const Index d : complex_.face_darts(f)) sheets_.touch(complex_.origin(d));
+  complex_.delete_face(f);
+}
+
 // Deletes the longest edge that has one face, with that face: an elementary collapse, which keeps the
 // homotopy type.
 MSPSKEL_INLINE bool SkeletonDecimater::thin_sheet() {
-  Index longest = kNone;
-  for (const Index e : living_)
-    if (complex_.face_count(e) == 1 && (longest == kNone || rounded_length(e) > rounded_length(longest)))
-      longest = e;
+  const Index longest = sheets_.take_free_edge(complex_, [&](Index e) { return rounded_length(e); });
   if (longest == kNone) return false;
   const auto ends = complex_.ends(longest);
-  complex_.delete_face(complex_.first_corner(longest) / 3);
+  delete_face(complex_.first_corner(longest) / 3);
   complex_.delete_edge(longest);
   ++counts_.thinned_faces;
   for (const Index node : ends) reopen_refused(node);
@@ -280,21 +293,7 @@ MSPSKEL_INLINE bool SkeletonDecimater::thin_sheet() {
 }
 
 MSPSKEL_INLINE void SkeletonDecimater::delete_largest_face() {
-  Index largest = kNone;
-  double largest_area = -1.0;
-  for (const Index e : living_)
-    for (Index c = complex_.first_corner(e); c != kNone; c = complex_.next_corner(c)) {
-      const auto darts = complex_.face_darts(c / 3);
-      const Vector3& p = nodes_[complex_.origin(darts[0])].position;
-      const Vector3 a = nodes_[complex_.origin(darts[1])].position - p,
-                    b = nodes_[complex_.origin(darts[2])].position - p;
-      const double area = a.cross(b).norm();
-      if (area > largest_area || (area == largest_area && c / 3 < largest)) {
-        largest = c / 3;
-        largest_area = area;
-      }
-    }
-  complex_.delete_face(largest);
+  delete_face(sheets_.take_face(complex_, [&](Index f) { return face_area(f); }));
   ++counts_.deleted_faces;
 }
 

@@ -17,6 +17,7 @@
 #include "mspskel/mesh/detail/box_index.h"
 #include "mspskel/mesh/surface_snapshot.h"
 #include "mspskel/solid/detail/inward_chord.h"
+#include "mspskel/solid/detail/landmarks.h"
 
 namespace mspskel {
 namespace detail {
@@ -44,41 +45,44 @@ class InnerPaths {
   }
 
   // Points strictly between a and b along the cheapest path, or false, also where the search comes by more
-  // than `most` vertices. Cost: what it comes by.
-  bool path(const Vector3& a, const Vector3& b, std::vector<Vector3>& between,
-            Index most = std::numeric_limits<Index>::max()) {
+  // than `most` vertices. Cost: what it comes by. Where searches without such a bound have come by many
+  // vertices, those after them go toward their goal, so that they come by few that do not lie on the way.
+  bool path(const Vector3& a, const Vector3& b, std::vector<Vector3>& between, Index most = kAnyNumber) {
     for (const Index v : marked_) marks_[v] = {};
     marked_.clear();
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
-    const std::vector<std::pair<double, Index>> goals = entries(b);
+    std::vector<Index> goals;
+    for (const auto& [distance, v] : entries(b)) goals.push_back(v);
     if (goals.empty()) return false;
-    for (const auto& [distance, v] : goals) mark(v).goal = true;
-    for (const auto& [distance, v] : entries(a)) queue.push({step_cost(distance, clearance(v)), v, kNone});
-    while (!queue.empty()) {
-      const auto [cost, v, before] = queue.top();
+    for (const Index v : goals) mark(v).goal = true;
+    const Landmarks::Goal goal = most == kAnyNumber ? landmarks_.goal(goals) : Landmarks::Goal();
+    // By the cost of the whole way at least; then the cost so far, the vertex and the one before it.
+    using Reach = std::tuple<double, double, Index, Index>;
+    std::priority_queue<Reach, std::vector<Reach>, std::greater<Reach>> queue;
+    const auto reach = [&](double cost, Index v, Index before) {
+      queue.push({cost + goal.bound(v), cost, v, before});
+    };
+    for (const auto& [distance, v] : entries(a)) reach(step_cost(distance, clearance(v)), v, kNone);
+    bool found = false;
+    while (!queue.empty() && !found) {
+      const auto [least, cost, v, before] = queue.top();
       queue.pop();
       // Whether an edge stays inside is asked where it would be the cheapest way, which few edges are.
       if (marks_[v].done || (before != kNone && solid_.segment_crosses(point_[before], point_[v]))) continue;
-      if (most-- <= 0) return false;
+      if (most != kAnyNumber && most-- <= 0) return false;
       mark(v).done = true;
       marks_[v].before = before;
       if (marks_[v].goal) {
         between.clear();
         for (Index w = v; w != kNone; w = marks_[w].before) between.push_back(point_[w]);
         std::reverse(between.begin(), between.end());
-        return true;
+        found = true;
       }
-      const Index first = surface_.vertex_halfedge[v];
-      Index h = first;
-      do {
-        const Index w = surface_.target(h);
-        h = surface_.next_outgoing(h);
-        if (!usable(w) || marks_[w].done) continue;
-        const double length = (point_[w] - point_[v]).norm();
-        queue.push({cost + step_cost(length, std::min(clearance(v), clearance(w))), w, v});
-      } while (h != first);
+      for_each_edge(v, [&, cost = cost, v = v](Index w, double more) {
+        if (!marks_[w].done) reach(cost + more, w, v);
+      });
     }
-    return false;
+    if (most == kAnyNumber) set_landmarks_where_worthwhile(goals.front());
+    return found;
   }
 
   // As path(), among the ways with this label. False as well where the search comes by many labels before it
@@ -111,15 +115,9 @@ class InnerPaths {
         std::reverse(between.begin(), between.end());
         return true;
       }
-      const Index first = surface_.vertex_halfedge[v];
-      Index h = first;
-      do {
-        const Index w = surface_.target(h);
-        h = surface_.next_outgoing(h);
-        if (!usable(w) || (before != kNone && places[before].vertex == w)) continue;
-        const double length = (point_[w] - point_[v]).norm();
-        queue.push({cost + step_cost(length, std::min(clearance(v), clearance(w))), w, place});
-      } while (h != first);
+      for_each_edge(v, [&, cost = cost, before = before](Index w, double more) {
+        if (before == kNone || places[before].vertex != w) queue.push({cost + more, w, place});
+      });
     }
     return false;
   }
@@ -143,6 +141,7 @@ class InnerPaths {
 
  private:
   static constexpr double kUnknown = -1.0;
+  static constexpr Index kAnyNumber = std::numeric_limits<Index>::max();
 
   // A point reached by ways of one class, and the place before it.
   struct Place {
@@ -176,6 +175,28 @@ class InnerPaths {
   }
 
   static double step_cost(double length, double clearance) { return length / std::max(clearance, 1e-6); }
+
+  // visit(w, cost) for the edges of a usable vertex to usable ones, whether they stay inside or not.
+  template <class Visit>
+  void for_each_edge(Index v, Visit visit) {
+    const Index first = surface_.vertex_halfedge[v];
+    Index h = first;
+    do {
+      const Index w = surface_.target(h);
+      h = surface_.next_outgoing(h);
+      if (!usable(w)) continue;
+      visit(w, step_cost((point_[w] - point_[v]).norm(), std::min(clearance(v), clearance(w))));
+    } while (h != first);
+  }
+
+  // Landmarks take about as long as four searches of the whole graph.
+  void set_landmarks_where_worthwhile(Index goal) {
+    constexpr std::size_t kSearches = 4;
+    if (!landmarks_.empty()) return;
+    came_by_ += marked_.size();
+    if (came_by_ < kSearches * point_.size()) return;
+    landmarks_.build(surface_.vertex_count(), goal, [&](Index v, auto visit) { for_each_edge(v, visit); });
+  }
 
   // The nearest inner points that x sees.
   std::vector<std::pair<double, Index>> entries(const Vector3& x) const {
@@ -212,6 +233,8 @@ class InnerPaths {
   BoxIndex index_;                 // of the usable points
   std::vector<Mark> marks_;        // per vertex; of `marked_` alone they mean something
   std::vector<Index> marked_;
+  Landmarks landmarks_;      // of this graph, where searches have come by many vertices
+  std::size_t came_by_ = 0;  // vertices, before there were landmarks
 };
 
 // The inner paths of the surface that an arc graph's map is of. What reads that map takes surface, solid and
