@@ -12,12 +12,14 @@
 namespace mspskel {
 
 // Gaussian elimination modulo p = 2^31 − 1, one sparse row at a time. The rank modulo p is a lower bound of
-// the rank over the rationals, so rows that are called independent are independent.
+// the rank over the rationals, so rows that are called independent are independent. Pivots are the largest
+// indices: those of the generator loops go from the longest to the shortest, and as few labels have an entry
+// for a short loop, few rows fill each other.
 class LabelRank {
  public:
   // Adds the label to the rows if it is independent of them, and says whether it was. Cost: the entries of
   // the rows that it is reduced by; a label with an entry that no row has costs that entry alone where it
-  // comes first.
+  // comes last.
   bool insert(const CocycleLabel& label) {
     Row row = reduced(label);
     if (row.empty()) return false;
@@ -35,7 +37,7 @@ class LabelRank {
 
  private:
   using Entry = std::pair<Index, std::uint64_t>;
-  using Row = std::vector<Entry>;  // by ascending index
+  using Row = std::vector<Entry>;  // by descending index
   static constexpr std::uint64_t kPrime = 2147483647u;
 
   static std::uint64_t residue(std::int64_t value) {
@@ -52,11 +54,11 @@ class LabelRank {
     if (is_open_[column]) return;
     is_open_[column] = 1;
     open_.push_back(index);
-    std::push_heap(open_.begin(), open_.end(), std::greater<>());
+    std::push_heap(open_.begin(), open_.end(), std::less<>());
   }
-  // The least open index, which is no longer.
+  // The largest open index, which is no longer.
   Index close() {
-    std::pop_heap(open_.begin(), open_.end(), std::greater<>());
+    std::pop_heap(open_.begin(), open_.end(), std::less<>());
     const Index index = open_.back();
     open_.pop_back();
     is_open_[static_cast<std::size_t>(index)] = 0;
@@ -64,7 +66,7 @@ class LabelRank {
   }
 
   // What is left of the label when the rows with its leading entries are taken off, one after the other. A
-  // row begins with a 1 at its pivot and has nothing before it.
+  // row begins with a 1 at its pivot, its largest index.
   Row reduced(const CocycleLabel& label) {
     for (const auto& [index, value] : label.entries()) {
       open(index);
@@ -103,7 +105,7 @@ class LabelRank {
   // Of the label that is being reduced; all zero and empty between calls.
   std::vector<std::uint64_t> value_;   // per index
   std::vector<std::uint8_t> is_open_;  // per index whether it is in the heap
-  std::vector<Index> open_;            // heap, the least first
+  std::vector<Index> open_;            // heap, the largest first
 };
 
 }  // namespace mspskel
