@@ -70,19 +70,23 @@ TEST_CASE("Factors solve for three right sides as for one after the other") {
   Eigen::SparseMatrix<double> matrix(kSize, kSize);
   matrix.setFromTriplets(entries.begin(), entries.end());
   detail::IncompleteFactors factors;
-  factors.setDroptol(1e-4);
-  factors.setFillfactor(3);
   factors.compute(matrix);
-  Eigen::MatrixX3d right(kSize, 3);
-  for (int i = 0; i < kSize; ++i) right.row(i) = random.in_ball().transpose();
-  const detail::LineFactors line_factors(matrix);
-  const Eigen::MatrixX3d together = detail::solve_rows(factors, right),
-                         on_line = detail::solve_rows(line_factors, right);
+  detail::LineFactors line_factors;
+  line_factors.compute(matrix);
+  Eigen::VectorXd right(3 * kSize), together, on_line;
+  for (int i = 0; i < kSize; ++i) right.segment<3>(3 * i) = random.in_ball();
+  detail::IncompleteFactors::Room room;
+  detail::LineFactors::Room line_room;
+  factors.solve_rows(right, together, room);
+  line_factors.solve_rows(right, on_line, line_room);
+  const auto coordinate = [](const Eigen::VectorXd& x, int k) {
+    return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd, 0, Eigen::InnerStride<3>>(x.data() + k, kSize));
+  };
   for (int k = 0; k < 3; ++k) {
-    const Eigen::VectorXd alone = factors.solve(Eigen::VectorXd(right.col(k))),
-                          alone_on_line = line_factors.solve(Eigen::VectorXd(right.col(k)));
-    CHECK((together.col(k) - alone).norm() <= 1e-13 * alone.norm());
-    CHECK((on_line.col(k) - alone_on_line).norm() <= 1e-13 * alone_on_line.norm());
+    const Eigen::VectorXd alone = factors.solve(coordinate(right, k)),
+                          alone_on_line = line_factors.solve(coordinate(right, k));
+    CHECK((coordinate(together, k) - alone).norm() <= 1e-13 * alone.norm());
+    CHECK((coordinate(on_line, k) - alone_on_line).norm() <= 1e-13 * alone_on_line.norm());
   }
 }
 
@@ -91,9 +95,12 @@ TEST_CASE("Coupled coordinates are solved in steps with factors of what they hav
     Random random(5);
     constexpr int kPoints = 200;
     std::vector<Eigen::Triplet<double>> coupled_entries, even_entries;
+    CoupledMatrix matrix;
+    matrix.diagonal.assign(kPoints, Eigen::Matrix3d::Zero());
     const auto add = [&](int i, int j, double value) {
       even_entries.emplace_back(i, j, value);
       for (int k = 0; k < 3; ++k) coupled_entries.emplace_back(3 * i + k, 3 * j + k, value);
+      if (i == j) matrix.diagonal[i].diagonal().array() += value;
     };
     Eigen::VectorXd right(3 * kPoints), guess(3 * kPoints);
     for (int i = 0; i < kPoints; ++i) {
@@ -103,6 +110,7 @@ TEST_CASE("Coupled coordinates are solved in steps with factors of what they hav
       even_entries.emplace_back(i, i, weight.trace() / 3);
       for (int k = 0; k < 3; ++k)
         for (int l = 0; l < 3; ++l) coupled_entries.emplace_back(3 * i + k, 3 * i + l, weight(k, l));
+      matrix.diagonal[i] += weight;
       right.segment<3>(3 * i) = weight * random.in_ball();
       guess.segment<3>(3 * i) = random.in_ball();
       for (const int j : {i + 1, has_many_cycles ? (i * 7) % kPoints : i}) {
@@ -114,16 +122,18 @@ TEST_CASE("Coupled coordinates are solved in steps with factors of what they hav
         add(j, i, -spring);
       }
     }
-    Eigen::SparseMatrix<double> coupled(3 * kPoints, 3 * kPoints), even(kPoints, kPoints);
+    Eigen::SparseMatrix<double> coupled(3 * kPoints, 3 * kPoints);
     coupled.setFromTriplets(coupled_entries.begin(), coupled_entries.end());
-    even.setFromTriplets(even_entries.begin(), even_entries.end());
-    const auto solution = solve_coupled(coupled, even, right, guess, has_many_cycles);
+    matrix.even.resize(kPoints, kPoints);
+    matrix.even.setFromTriplets(even_entries.begin(), even_entries.end());
+    CHECK((matrix.written_out() - coupled).norm() == 0);
+    const auto solution = solve_coupled(matrix, right, guess, has_many_cycles);
     REQUIRE(solution);
     CHECK((right - coupled * *solution).norm() <= 1.1e-5 * (right - coupled * guess).norm());
-    CHECK(*solve_coupled(coupled, even, right, guess, has_many_cycles) == *solution);
+    CHECK(*solve_coupled(matrix, right, guess, has_many_cycles) == *solution);
     // Where steps find no end, as from a guess that is not finite, elimination answers.
     const auto exact =
-        solve_coupled(coupled, even, right, std::numeric_limits<double>::infinity() * guess, has_many_cycles);
+        solve_coupled(matrix, right, std::numeric_limits<double>::infinity() * guess, has_many_cycles);
     REQUIRE(exact);
     CHECK((right - coupled * *exact).norm() < 1e-9 * right.norm());
   }

@@ -4,9 +4,90 @@
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/Sparse>
 #include <Eigen/SparseCholesky>
+#include <cmath>
+#include <limits>
 #include <optional>
+#include <utility>
+#include <vector>
 
 namespace mspskel {
+
+namespace detail {
+
+// Three numbers a row, side by side in one vector.
+inline auto row_of_three(Eigen::VectorXd& x, Eigen::Index i) { return x.segment<3>(3 * i); }
+inline auto row_of_three(const Eigen::VectorXd& x, Eigen::Index i) { return x.segment<3>(3 * i); }
+
+// Incomplete LU factors that hold three times the matrix, and solve for three right sides in one pass over
+// their entries, with the same result as one after the other.
+class IncompleteFactors : public Eigen::IncompleteLUT<double> {
+ public:
+  IncompleteFactors() {
+    setDroptol(1e-4);
+    setFillfactor(3);
+  }
+
+  // Kept from one solution to the next.
+  struct Room {
+    Eigen::VectorXd x;
+    std::vector<int> diagonal;  // per row the entry on the diagonal
+  };
+
+  void solve_rows(const Eigen::VectorXd& right, Eigen::VectorXd& result, Room& room) const {
+    const int rows = static_cast<int>(right.size() / 3);
+    Eigen::VectorXd& x = room.x;
+    x.resize(right.size());
+    result.resize(right.size());
+    room.diagonal.resize(static_cast<std::size_t>(rows));
+    const auto& order = m_Pinv.indices();
+    for (int i = 0; i < rows; ++i) row_of_three(x, order[i]) = row_of_three(right, i);
+    // A row holds its entries left of the diagonal, the diagonal, and those right of it. The factors of any
+    // matrix have each diagonal entry: where it comes out as zero, IncompleteLUT puts a small number.
+    const int *begin = m_lu.outerIndexPtr(), *column = m_lu.innerIndexPtr();
+    const double* value = m_lu.valuePtr();
+    for (int i = 0; i < rows; ++i) {
+      Eigen::Vector3d left = row_of_three(x, i);
+      int k = begin[i];
+      for (; column[k] != i; ++k) left -= value[k] * row_of_three(x, column[k]);
+      room.diagonal[static_cast<std::size_t>(i)] = k;
+      row_of_three(x, i) = left;
+    }
+    for (int i = rows - 1; i >= 0; --i) {
+      Eigen::Vector3d left = row_of_three(x, i);
+      const int diagonal = room.diagonal[static_cast<std::size_t>(i)];
+      for (int k = diagonal + 1; k < begin[i + 1]; ++k) left -= value[k] * row_of_three(x, column[k]);
+      row_of_three(x, i) = left / value[diagonal];
+    }
+    for (int i = 0; i < rows; ++i) row_of_three(result, m_P.indices()[i]) = row_of_three(x, i);
+  }
+};
+
+// Exact factors in the order that the matrix has, which solve in the same way.
+class LineFactors
+    : public Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::NaturalOrdering<int>> {
+ public:
+  struct Room {};
+
+  void solve_rows(const Eigen::VectorXd& right, Eigen::VectorXd& x, Room&) const {
+    x = right;
+    const auto& lower = matrixL().nestedExpression();  // the diagonal, which is 1, is not stored
+    const int *begin = lower.outerIndexPtr(), *row = lower.innerIndexPtr();
+    const double* value = lower.valuePtr();
+    const int rows = static_cast<int>(right.size() / 3);
+    for (int i = 0; i < rows; ++i) {
+      const Eigen::Vector3d known = row_of_three(x, i);
+      for (int k = begin[i]; k < begin[i + 1]; ++k) row_of_three(x, row[k]) -= value[k] * known;
+    }
+    for (int i = 0; i < rows; ++i) row_of_three(x, i) *= 1 / m_diag[i];
+    for (int i = rows - 1; i >= 0; --i) {
+      Eigen::Vector3d left = row_of_three(x, i);
+      for (int k = begin[i]; k < begin[i + 1]; ++k) left -= value[k] * row_of_three(x, row[k]);
+      row_of_three(x, i) = left;
+    }
+  }
+};
+
+}  // namespace detail
 
 // The solution of matrix · x = right by its LDLᵀ factors; nothing if rounding leaves no factors.
 // Only the lower triangle is read. Costs what the factors hold, which for a graph of many cycles grows with
@@ -21,15 +102,13 @@ inline std::optional<Eigen::MatrixX3d> solve_by_elimination(const Eigen::SparseM
 // Solves matrix · x = right for three right sides in steps from a guess, until what is left of the right
 // sides is 1e-8 of what the guess leaves. Nothing if that takes more than 200 steps. For graphs with many
 // cycles, whose exact factors grow with the square of their size: this costs O(entries) a step, and a few
-// steps where the matrix is positive definite. The incomplete LU factors hold three times the matrix;
-// incomplete Cholesky factors, which hold no more than the matrix, take a hundred times the steps where arcs
-// are stiff, so the method is BiCGSTAB although the matrix is symmetric.
+// steps where the matrix is positive definite. With incomplete Cholesky factors, which hold no more than the
+// matrix, it would take a hundred times the steps where arcs are stiff, so the method is BiCGSTAB although
+// the matrix is symmetric.
 inline std::optional<Eigen::MatrixX3d> solve_by_steps(const Eigen::SparseMatrix<double>& matrix,
                                                       const Eigen::MatrixX3d& right,
                                                       const Eigen::MatrixX3d& guess) {
-  Eigen::BiCGSTAB<Eigen::SparseMatrix<double>, Eigen::IncompleteLUT<double>> solver;
-  solver.preconditioner().setDroptol(1e-4);
-  solver.preconditioner().setFillfactor(3);
+  Eigen::BiCGSTAB<Eigen::SparseMatrix<double>, detail::IncompleteFactors> solver;
   solver.setTolerance(1e-8);
   solver.setMaxIterations(200);
   solver.compute(matrix);
@@ -48,137 +127,131 @@ inline std::optional<Eigen::MatrixX3d> solve_large(const Eigen::SparseMatrix<dou
   return solve_by_elimination(matrix, right);
 }
 
-namespace detail {
+// A matrix for three coordinates side by side: three rows for each row of `even`. Off the diagonal an entry
+// of `even` counts for each coordinate alike; on it stand the blocks, which couple the coordinates, in place
+// of even's entries. Written out it would hold three times the entries of `even` and nine for each block.
+struct CoupledMatrix {
+  Eigen::SparseMatrix<double> even;
+  std::vector<Eigen::Matrix3d> diagonal;
 
-using RowsOfThree = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
-
-// Incomplete LU factors that solve for three right sides in one pass over their entries, with the same result
-// as one after the other.
-class IncompleteFactors : public Eigen::IncompleteLUT<double> {
- public:
-  RowsOfThree solve_rows(const RowsOfThree& right) const {
-    RowsOfThree x(right.rows(), 3);
-    const auto& order = m_Pinv.indices();
-    for (Eigen::Index i = 0; i < right.rows(); ++i) x.row(order[i]) = right.row(i);
-    // A row holds its entries left of the diagonal, the diagonal, and those right of it.
-    const int *begin = m_lu.outerIndexPtr(), *column = m_lu.innerIndexPtr();
-    const double* value = m_lu.valuePtr();
-    const int rows = static_cast<int>(right.rows());
-    for (int i = 0; i < rows; ++i) {
-      Eigen::RowVector3d left = x.row(i);
-      for (int k = begin[i]; column[k] != i; ++k) left -= value[k] * x.row(column[k]);
-      x.row(i) = left;
+  Eigen::SparseMatrix<double> written_out() const {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int j = 0; j < even.outerSize(); ++j) {
+      for (Eigen::SparseMatrix<double>::InnerIterator it(even, j); it; ++it)
+        for (int k = 0; k < 3 && it.row() != j; ++k)
+          entries.emplace_back(3 * static_cast<int>(it.row()) + k, 3 * j + k, it.value());
+      for (int k = 0; k < 3; ++k)
+        for (int l = 0; l < 3; ++l)
+          entries.emplace_back(3 * j + k, 3 * j + l, diagonal[static_cast<std::size_t>(j)](k, l));
     }
-    for (int i = rows - 1; i >= 0; --i) {
-      Eigen::RowVector3d left = x.row(i);
-      int diagonal = begin[i];
-      while (column[diagonal] != i) ++diagonal;
-      for (int k = diagonal + 1; k < begin[i + 1]; ++k) left -= value[k] * x.row(column[k]);
-      x.row(i) = left / value[diagonal];
-    }
-    RowsOfThree result(right.rows(), 3);
-    for (Eigen::Index i = 0; i < right.rows(); ++i) result.row(m_P.indices()[i]) = x.row(i);
+    Eigen::SparseMatrix<double> result(3 * even.rows(), 3 * even.cols());
+    result.setFromTriplets(entries.begin(), entries.end());
     return result;
   }
 };
 
-inline RowsOfThree solve_rows(const IncompleteFactors& factors, const RowsOfThree& right) {
-  return factors.solve_rows(right);
-}
-using LineFactors =
-    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::NaturalOrdering<int>>;
-// As the factors' own solve(), in one pass over their entries for all three right sides.
-inline RowsOfThree solve_rows(const LineFactors& factors, const RowsOfThree& right) {
-  RowsOfThree x = right;
-  const auto& lower = factors.matrixL().nestedExpression();  // the diagonal, which is 1, is not stored
-  const int *begin = lower.outerIndexPtr(), *row = lower.innerIndexPtr();
-  const double* value = lower.valuePtr();
-  const int rows = static_cast<int>(right.rows());
-  for (int i = 0; i < rows; ++i) {
-    const Eigen::RowVector3d known = x.row(i);
-    for (int k = begin[i]; k < begin[i + 1]; ++k) x.row(row[k]) -= value[k] * known;
-  }
-  const Eigen::VectorXd diagonal = factors.vectorD();
-  for (int i = 0; i < rows; ++i) x.row(i) *= 1 / diagonal[i];
-  for (int i = rows - 1; i >= 0; --i) {
-    Eigen::RowVector3d left = x.row(i);
-    for (int k = begin[i]; k < begin[i + 1]; ++k) left -= value[k] * x.row(row[k]);
-    x.row(i) = left;
-  }
-  return x;
-}
+namespace detail {
 
-// A preconditioner that solves for each of three coordinates, which lie side by side, by the same factors.
-template <class Factors>
-class EachCoordinate {
+// Adds matrix · x to vectors, row by row.
+class CoupledProduct {
  public:
-  void set(const Factors& factors) { factors_ = &factors; }
+  explicit CoupledProduct(const CoupledMatrix& matrix) : rows_(matrix.even), diagonal_(matrix.diagonal) {}
 
-  template <class Matrix>
-  EachCoordinate& analyzePattern(const Matrix&) {
-    return *this;
+  void add(const Eigen::VectorXd& x, Eigen::VectorXd& sum) const {
+    const int *begin = rows_.outerIndexPtr(), *column = rows_.innerIndexPtr();
+    const double* value = rows_.valuePtr();
+    const int rows = static_cast<int>(rows_.rows());
+    for (int i = 0; i < rows; ++i) {
+      Eigen::Vector3d s = row_of_three(sum, i);
+      for (int k = begin[i]; k < begin[i + 1]; ++k) {
+        const Eigen::Vector3d factor = row_of_three(x, column[k]);
+        if (column[k] != i) {
+          s += value[k] * factor;
+          continue;
+        }
+        const Eigen::Matrix3d& block = diagonal_[static_cast<std::size_t>(i)];
+        for (int l = 0; l < 3; ++l) s += factor[l] * block.col(l);
+      }
+      row_of_three(sum, i) = s;
+    }
   }
-  template <class Matrix>
-  EachCoordinate& factorize(const Matrix&) {
-    return *this;
+  void set(const Eigen::VectorXd& x, Eigen::VectorXd& product) const {
+    product.setZero(x.size());
+    add(x, product);
   }
-  template <class Matrix>
-  EachCoordinate& compute(const Matrix&) {
-    return *this;
-  }
-  template <class Right>
-  Eigen::VectorXd solve(const Eigen::MatrixBase<Right>& right) const {
-    RowsOfThree rows(right.size() / 3, 3);
-    Eigen::Map<Eigen::VectorXd>(rows.data(), rows.size()) = right;
-    rows = solve_rows(*factors_, rows);
-    return Eigen::Map<const Eigen::VectorXd>(rows.data(), rows.size());
-  }
-  Eigen::ComputationInfo info() const { return Eigen::Success; }
 
  private:
-  const Factors* factors_ = nullptr;
+  Eigen::SparseMatrix<double, Eigen::RowMajor> rows_;
+  const std::vector<Eigen::Matrix3d>& diagonal_;
 };
 
+// What matrix · way = right − matrix · guess adds to the guess, by preconditioned BiCGSTAB (van der Vorst
+// 1992) from zero: Eigen's own wants the matrix written out, and makes room for each product anew.
 template <class Factors>
-std::optional<Eigen::VectorXd> solve_coupled_by_steps(const Eigen::SparseMatrix<double>& coupled,
+std::optional<Eigen::VectorXd> solve_coupled_by_steps(const CoupledMatrix& matrix,
                                                       const Eigen::VectorXd& right,
                                                       const Eigen::VectorXd& guess, const Factors& factors) {
+  constexpr double kTolerance = 1e-5, kEpsilon = std::numeric_limits<double>::epsilon();
+  constexpr int kMostSteps = 200;
   if (factors.info() != Eigen::Success) return std::nullopt;
-  Eigen::BiCGSTAB<Eigen::SparseMatrix<double>, EachCoordinate<Factors>> solver;
-  solver.preconditioner().set(factors);
-  solver.setTolerance(1e-5);
-  solver.setMaxIterations(200);
-  solver.compute(coupled);
-  const Eigen::VectorXd way = solver.solve(right - coupled * guess);
-  if (solver.info() != Eigen::Success || !way.allFinite()) return std::nullopt;
+  const CoupledProduct product(matrix);
+  typename Factors::Room room;
+  const Eigen::Index n = right.size();
+  Eigen::VectorXd way = Eigen::VectorXd::Zero(n), v = way, p = way, y(n), z(n), s(n), t(n);
+  const auto what_is_left = [&] {
+    Eigen::VectorXd left = right;
+    product.add(-guess, left);
+    product.add(-way, left);
+    return left;
+  };
+  product.set(guess, t);
+  const double goal = (right - t).squaredNorm();
+  if (goal == 0) return guess;
+  Eigen::VectorXd r = what_is_left(), r0 = r;
+  double r0_square = r0.squaredNorm(), rho = 1, alpha = 1, w = 1;
+  bool restarted = false;
+  for (int step = 0; r.squaredNorm() > kTolerance * kTolerance * goal && step < kMostSteps; ++step) {
+    const double rho_before = std::exchange(rho, r0.dot(r));
+    if (std::abs(rho) < kEpsilon * kEpsilon * r0_square) {  // r has become orthogonal to r0
+      r = r0 = what_is_left();
+      rho = r0_square = r.squaredNorm();
+      if (!std::exchange(restarted, true)) step = 0;
+    }
+    const double beta = (rho / rho_before) * (alpha / w);
+    p = r + beta * (p - w * v);
+    factors.solve_rows(p, y, room);
+    product.set(y, v);
+    alpha = rho / r0.dot(v);
+    s = r - alpha * v;
+    factors.solve_rows(s, z, room);
+    product.set(z, t);
+    const double t_square = t.squaredNorm();
+    w = t_square > 0 ? t.dot(s) / t_square : 0.0;
+    way += alpha * y + w * z;
+    r = s - w * t;
+  }
+  if (!(std::sqrt(r.squaredNorm() / goal) <= kTolerance) || !way.allFinite()) return std::nullopt;
   return guess + way;
 }
 
 }  // namespace detail
 
-// Solves coupled · x = right, where three rows of `coupled`, one for each coordinate, stand for each row of
-// `even`, which is nearly what `coupled` is, for each coordinate alike, in an order in which a line fills in
-// nothing: in steps from the guess with factors of
-// `even`, incomplete ones where it has many cycles, until what is left of the right side is 1e-5 of what the
-// guess leaves. Factors of `coupled` would take nine times the room and more of the time. Elimination where
-// too many steps were needed; nothing if rounding leaves no factors.
-inline std::optional<Eigen::VectorXd> solve_coupled(const Eigen::SparseMatrix<double>& coupled,
-                                                    const Eigen::SparseMatrix<double>& even,
+// Solves coupled · x = right in steps from the guess until what is left of the right side is 1e-5 of what the
+// guess leaves, with factors of coupled.even, which should be nearly what the matrix is for each coordinate,
+// in an order in which a line fills in nothing: incomplete factors where it has many cycles. Factors of the
+// whole would take nine times the room and more of the time. Elimination where too many steps were needed;
+// nothing if rounding leaves no factors.
+inline std::optional<Eigen::VectorXd> solve_coupled(const CoupledMatrix& coupled,
                                                     const Eigen::VectorXd& right,
                                                     const Eigen::VectorXd& guess, bool has_many_cycles) {
-  std::optional<Eigen::VectorXd> solution;
-  if (has_many_cycles) {
-    detail::IncompleteFactors factors;
-    factors.setDroptol(1e-4);
-    factors.setFillfactor(3);
-    factors.compute(even);
-    solution = detail::solve_coupled_by_steps(coupled, right, guess, factors);
-  } else {
-    const detail::LineFactors factors(even);
-    solution = detail::solve_coupled_by_steps(coupled, right, guess, factors);
-  }
-  if (solution) return solution;
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(coupled);
+  const auto by_steps = [&](auto&& factors) {
+    factors.compute(coupled.even);
+    return detail::solve_coupled_by_steps(coupled, right, guess, factors);
+  };
+  if (const auto solution =
+          has_many_cycles ? by_steps(detail::IncompleteFactors()) : by_steps(detail::LineFactors()))
+    return solution;
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(coupled.written_out());
   if (factors.info() != Eigen::Success) return std::nullopt;
   return Eigen::VectorXd(factors.solve(right));
 }

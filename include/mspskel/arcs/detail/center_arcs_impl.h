@@ -205,18 +205,19 @@ inline std::vector<Vector3> solve_positions(const ArcPoints& points, const std::
   using Triplet = Eigen::Triplet<double>;
   const Index n = points.count();
   const std::vector<Index> row = elimination_order(points);
-  std::vector<Triplet> coupled_entries, even_entries;
+  CoupledMatrix matrix;
+  matrix.even.resize(n, n);
+  matrix.diagonal.assign(points.x.size(), Eigen::Matrix3d::Zero());
+  std::vector<Triplet> entries;
   Eigen::VectorXd right(3 * n), guess(3 * n);
   const auto add = [&](Index i, Index j, double value) {
-    even_entries.emplace_back(row[i], row[j], value);
-    for (Index k = 0; k < 3; ++k) coupled_entries.emplace_back(3 * row[i] + k, 3 * row[j] + k, value);
+    entries.emplace_back(row[i], row[j], value);
+    if (i == j) matrix.diagonal[row[i]].diagonal().array() += value;
   };
   for (Index i = 0; i < n; ++i) {
     const Eigen::Matrix3d weight = pulls[i].weight + 1e-9 * Eigen::Matrix3d::Identity();
-    even_entries.emplace_back(row[i], row[i], weight.trace() / 3);
-    for (Index k = 0; k < 3; ++k)
-      for (Index l = 0; l < 3; ++l)
-        coupled_entries.emplace_back(3 * row[i] + k, 3 * row[i] + l, weight(k, l));
+    entries.emplace_back(row[i], row[i], weight.trace() / 3);
+    matrix.diagonal[row[i]] += weight;
     right.segment<3>(3 * row[i]) = weight * pulls[i].goal;
     guess.segment<3>(3 * row[i]) = points.x[i];
     const auto& next = points.next[i];
@@ -232,12 +233,10 @@ inline std::vector<Vector3> solve_positions(const ArcPoints& points, const std::
       for (const Index b : next) add(a, b, mu / (k * k));
     }
   }
-  Eigen::SparseMatrix<double> coupled(3 * n, 3 * n), even(n, n);
-  coupled.setFromTriplets(coupled_entries.begin(), coupled_entries.end());
-  even.setFromTriplets(even_entries.begin(), even_entries.end());
+  matrix.even.setFromTriplets(entries.begin(), entries.end());
   constexpr Index kFewJoints = 128;  // among more than that, elimination fills in
   const auto joints = std::count(points.kind.begin(), points.kind.end(), ArcPoints::Kind::kJoint);
-  const auto solved = solve_coupled(coupled, even, right, guess, joints > kFewJoints);
+  const auto solved = solve_coupled(matrix, right, guess, joints > kFewJoints);
   if (!solved) return points.x;
   std::vector<Vector3> x(points.x.size());
   for (Index i = 0; i < n; ++i) x[i] = solved->segment<3>(3 * row[i]);
