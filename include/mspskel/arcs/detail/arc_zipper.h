@@ -114,13 +114,8 @@ inline std::vector<Vector3> without_front(const Arc& arc, int end, std::size_t c
   return rest;
 }
 
-struct Zip {
-  ArcEnd a{kNone, 0}, b{kNone, 0};
-  CommonWay way;
-};
-
-// Zips one pair after the other. What a joint's arcs have in common changes only where one of them does, so
-// it is found anew only there.
+// Zips one pair after the other. What two arcs have in common changes only where one of them does, so it is
+// found anew only then.
 class ArcZipper {
  public:
   ArcZipper(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
@@ -143,7 +138,7 @@ class ArcZipper {
       if (joints_[hub].leaf != kNone)
         drop(joints_[hub].leaf, hub);
       else
-        zip(Zip(joints_[hub].best));
+        zip(hub, Pair(joints_[hub].pairs[joints_[hub].best]));
       ++zips;
       dissolve(hub);
       // A graph without a zip stays as it is.
@@ -156,10 +151,19 @@ class ArcZipper {
   Index compared() const { return compared_; }
 
  private:
+  // Two arcs of a joint as they were when they were compared.
+  struct Pair {
+    Index a = kNone, b = kNone;
+    Index version_a = 0, version_b = 0;
+    CommonWay way;
+  };
   struct Joint {
+    static constexpr std::size_t kNoPair = static_cast<std::size_t>(-1);
     bool stale = false;
-    Index leaf = kNone;  // a leaf arc that never parts from another
-    Zip best;            // the pair with the longest common way
+    Index leaf = kNone;          // a leaf arc that never parts from another
+    std::vector<Pair> pairs;     // by ascending a, then b
+    std::size_t best = kNoPair;  // the pair with the longest common way
+    double longest = 0.0;        // that way's length
   };
 
   // Hubs get joints, which are to be searched.
@@ -177,6 +181,8 @@ class ArcZipper {
   // An arc goes another way, or ends elsewhere.
   void changed(Index arc) {
     radii_.forget(arc);
+    if (version_.size() <= static_cast<std::size_t>(arc)) version_.resize(graph_.arcs.size(), 0);
+    ++version_[arc];
     for (const Index hub : graph_.arcs[arc].hub) mark(hub);
   }
 
@@ -192,13 +198,16 @@ class ArcZipper {
     editor_.remove_leaf_arc(leaf, hub);
   }
 
-  void zip(const Zip& pair) {
-    const Index joint = graph_.arcs[pair.a.arc].hub[pair.a.end];
+  Index version(Index arc) const {
+    return static_cast<std::size_t>(arc) < version_.size() ? version_[arc] : 0;
+  }
+
+  void zip(Index joint, const Pair& pair) {
     const Vector3 position = pair.way.stem.back();
     const Index parting = editor_.add_hub(position);
     make_joints();
-    for (const auto& [from, count] :
-         {std::make_pair(pair.a, pair.way.first), std::make_pair(pair.b, pair.way.second)}) {
+    for (const auto& [from, count] : {std::make_pair(end_at(pair.a, joint), pair.way.first),
+                                      std::make_pair(end_at(pair.b, joint), pair.way.second)}) {
       changed(from.arc);
       editor_.lead_to(from.arc, from.end, parting,
                       without_front(graph_.arcs[from.arc], from.end, count, position, solid_, crossings_));
@@ -207,7 +216,7 @@ class ArcZipper {
     stem.hub = {joint, parting};
     stem.points = pair.way.stem;
     const Index added = editor_.add_arc(std::move(stem));
-    for (const Index arc : {pair.a.arc, pair.b.arc}) editor_.give_near_vertices(surface_, arc, added);
+    for (const Index arc : {pair.a, pair.b}) editor_.give_near_vertices(surface_, arc, added);
   }
 
   void refresh(const Execution& execution) {
@@ -215,12 +224,13 @@ class ArcZipper {
     Index searched = 0;
     for (const Index h : stale_) {
       leaves_.erase(h);
-      ways_.erase({-joints_[h].best.way.length, h});
+      ways_.erase({-joints_[h].longest, h});
+      std::vector<Pair> known = std::move(joints_[h].pairs);
       joints_[h] = {};
       if (editor_.at(h).size() < 3) continue;
-      search(h, joints_[h]);
+      search(h, joints_[h], known);
       if (joints_[h].leaf != kNone) leaves_.insert(h);
-      if (joints_[h].best.way.length > 0) ways_.insert({-joints_[h].best.way.length, h});
+      if (joints_[h].longest > 0) ways_.insert({-joints_[h].longest, h});
       if (++searched % 64 == 0) report_progress(execution.progress, "arcs", 0.5);
     }
     stale_.clear();
@@ -235,22 +245,38 @@ class ArcZipper {
   ArcEnd end_at(Index arc, Index hub) const { return {arc, graph_.arcs[arc].hub[0] == hub ? 0 : 1}; }
   bool is_loop(Index arc) const { return graph_.arcs[arc].hub[0] == graph_.arcs[arc].hub[1]; }
 
-  void search(Index h, Joint& joint) {
+  // `known`: the pairs that were compared when the joint was last searched, which are given away.
+  void search(Index h, Joint& joint, std::vector<Pair>& known) {
+    auto next_known = known.begin();
     for (const Index a : editor_.at(h))
       for (const Index b : editor_.at(h)) {
         if (a == b || is_loop(a) || is_loop(b)) continue;
-        const ArcEnd ea = end_at(a, h), eb = end_at(b, h);
-        ++compared_;
-        CommonWay way = common_way(graph_, ea, eb, radii_, solid_, closeness_, crossings_);
+        while (next_known != known.end() &&
+               std::make_pair(next_known->a, next_known->b) < std::make_pair(a, b))
+          ++next_known;
+        joint.pairs.push_back({a, b, version(a), version(b), {}});
+        Pair& pair = joint.pairs.back();
+        CommonWay& way = pair.way;
+        const bool is_known = next_known != known.end() && next_known->a == a && next_known->b == b &&
+                              next_known->version_a == pair.version_a &&
+                              next_known->version_b == pair.version_b;
+        if (is_known) {
+          way = std::move(next_known->way);
+        } else {
+          ++compared_;
+          way = common_way(graph_, end_at(a, h), end_at(b, h), radii_, solid_, closeness_, crossings_);
+        }
         const std::size_t size_a = graph_.arcs[a].points.size(), size_b = graph_.arcs[b].points.size();
-        const Index tip = graph_.arcs[a].hub[1 - ea.end];
+        const Index tip = graph_.arcs[a].hub[1 - end_at(a, h).end];
         if (way.first + 1 == size_a && editor_.at(tip).size() == 1) {
           joint.leaf = a;
           break;
         }
         // Both must go on behind the parting point, and the way must be worth a joint of its own.
         if (way.first + 1 >= size_a || way.second + 1 >= size_b || way.first < 2 || way.second < 2) continue;
-        if (way.length > joint.best.way.length) joint.best = {ea, eb, std::move(way)};
+        if (way.length <= joint.longest) continue;
+        joint.longest = way.length;
+        joint.best = joint.pairs.size() - 1;
       }
   }
 
@@ -262,6 +288,7 @@ class ArcZipper {
   ArcRadii radii_;
   ArcEditor editor_;
   Index compared_ = 0;
+  std::vector<Index> version_;               // per arc how often it has changed; 0 beyond the end
   std::vector<Joint> joints_;                // per hub
   std::vector<Index> stale_;                 // joints to search
   std::set<Index> leaves_;                   // joints that have one to drop

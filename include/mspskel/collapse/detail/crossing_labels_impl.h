@@ -123,6 +123,12 @@ MSPSKEL_INLINE bool CrossingLabels::goes_round(const std::vector<Vector3>& ring)
   }
   CocycleLabel label;
   regions_.in_box(low, high, [&](Index row) {
+    const Plane& plane = rows_[row].plane;
+    const bool positive = plane.signed_distance(ring.front()) >= 0;
+    // Most planes near a ring miss it.
+    if (std::all_of(ring.begin() + 1, ring.end(),
+                    [&](const Vector3& p) { return (plane.signed_distance(p) >= 0) == positive; }))
+      return;
     int sum = 0;
     for (std::size_t i = 0; i < ring.size(); ++i) sum += region_crossing(rows_[row], ring[i], next(i));
     if (sum != 0) label += rows_[row].image * sum;
