@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 
 #include "mspskel/mesh/detail/triangle_queries.h"
 #include "tetrahedron_cutter.h"
@@ -50,21 +51,25 @@ void sort_unique(std::vector<std::int64_t>& keys) {
 
 class UnionBoundary {
  public:
-  UnionBoundary(const SurfaceSnapshot& surface, const std::vector<Shell>& shells,
-                const std::vector<Index>& members, double cell, double margin)
-      : surface_(surface),
-        shells_(shells),
-        members_(members),
+  UnionBoundary(const ShellGroup& group, double cell, double margin)
+      : group_(group),
         margin_(margin),
-        grid_(low_corner(cell), high_corner(cell), cell) {}
+        // Not a whole number of cells from the box, so that plane walls do not fall on nodes.
+        grid_(group.low() - Vector3(2.37, 2.53, 2.71) * cell - Vector3::Constant(margin),
+              group.high() + Vector3::Constant(2.5 * cell + margin), cell) {}
 
   PolygonSoup run(const Execution& execution) {
-    find_cells();
+    find_cells(execution);
+    find_nodes();
     sample(execution);
     TetrahedronCutter cutter(*this, nodes_.size());
+    std::array<std::size_t, 8> corner_at{};  // as the cells' numbers ascend, so do those of each corner
     for (const std::int64_t key : cells_) {
       std::array<Index, 8> corner{};
-      for (int k = 0; k < 8; ++k) corner[k] = node(corner_of(grid_.cell(key), k));
+      for (int k = 0; k < 8; ++k) {
+        while (nodes_[corner_at[k]] < key + offset_of(k)) ++corner_at[k];
+        corner[k] = static_cast<Index>(corner_at[k]);
+      }
       cutter.cut_cube(corner);
     }
     return cutter.take();
@@ -75,44 +80,42 @@ class UnionBoundary {
   Vector3 place(Index node) const { return grid_.place(grid_.cell(nodes_[node])); }
 
  private:
-  // Not a whole number of cells from the box, so that plane walls do not fall on nodes.
-  Vector3 low_corner(double cell) const {
-    Vector3 low = shells_[members_[0]].low;
-    for (const Index m : members_) low = low.cwiseMin(shells_[m].low);
-    return low - Vector3(2.37, 2.53, 2.71) * cell - Vector3::Constant(margin_);
-  }
-  Vector3 high_corner(double cell) const {
-    Vector3 high = shells_[members_[0]].high;
-    for (const Index m : members_) high = high.cwiseMax(shells_[m].high);
-    return high + Vector3::Constant(2.5 * cell + margin_);
-  }
-
   // Those that a face or its margin can meet.
-  void find_cells() {
-    for (const Index m : members_)
-      for (const Index f : shells_[m].faces) {
-        const auto corner = [&](Index h) { return surface_.position[surface_.origin[h]]; };
-        const Triangle t{corner(3 * f), corner(3 * f + 1), corner(3 * f + 2)};
-        const Vector3 room = Vector3::Constant(margin_);
-        add_cells(t, grid_.cell_at(t.a.cwiseMin(t.b).cwiseMin(t.c) - room),
-                  grid_.cell_at(t.a.cwiseMax(t.b).cwiseMax(t.c) + room));
-        // Faces share most of their cells.
-        if (cells_.size() > 2 * kept_ + 4096) {
-          sort_unique(cells_);
-          kept_ = cells_.size();
-        }
-      }
+  void find_cells(const Execution& execution) {
+    constexpr Index kBlocks = 16, kLeastBlock = 256;
+    constexpr std::size_t kLeastKeys = 4096;
+    const auto faces = static_cast<Index>(group_.faces().size());
+    const Index block = std::max(kLeastBlock, faces / kBlocks);
+    std::vector<std::vector<std::int64_t>> found(static_cast<std::size_t>((faces + block - 1) / block));
+    parallel_for(
+        static_cast<Index>(found.size()), "union of shells", execution, [] { return 0; },
+        [&](Index b, int&) {
+          std::vector<std::int64_t>& keys = found[b];
+          std::size_t kept = 0;
+          for (Index i = b * block; i < std::min(faces, (b + 1) * block); ++i) {
+            add_cells(group_.faces()[i], keys);
+            if (keys.size() <= 2 * kept + kLeastKeys) continue;
+            sort_unique(keys);  // faces share most of their cells
+            kept = keys.size();
+          }
+          sort_unique(keys);
+        },
+        1);
+    for (const std::vector<std::int64_t>& keys : found) cells_.insert(cells_.end(), keys.begin(), keys.end());
     sort_unique(cells_);
-    nodes_.reserve(8 * cells_.size());
-    for (const std::int64_t key : cells_) {
-      const Cell c = grid_.cell(key);
-      for (int corner = 0; corner < 8; ++corner) nodes_.push_back(grid_.key(corner_of(c, corner)));
-    }
-    sort_unique(nodes_);
   }
 
+  void add_cells(Index f, std::vector<std::int64_t>& cells) const {
+    const SurfaceSnapshot& surface = group_.surface();
+    const auto corner = [&](Index h) { return surface.position[surface.origin[h]]; };
+    const Triangle t{corner(3 * f), corner(3 * f + 1), corner(3 * f + 2)};
+    const Vector3 room = Vector3::Constant(margin_);
+    add_cells(t, grid_.cell_at(t.a.cwiseMin(t.b).cwiseMin(t.c) - room),
+              grid_.cell_at(t.a.cwiseMax(t.b).cwiseMax(t.c) + room), cells);
+  }
   // The cells from the one to the other, by halves as long as the triangle is near.
-  void add_cells(const Triangle& t, const Cell& from, const Cell& to) {
+  void add_cells(const Triangle& t, const Cell& from, const Cell& to,
+                 std::vector<std::int64_t>& cells) const {
     const Vector3 low = grid_.place(from), high = grid_.place(to) + Vector3::Constant(grid_.side());
     const Vector3 middle = (low + high) / 2;
     if ((closest_on_triangle(middle, t) - middle).norm() > (high - low).norm() / 2 + margin_) return;
@@ -120,69 +123,97 @@ class UnionBoundary {
     for (int k = 1; k < 3; ++k)
       if (to[k] - from[k] > to[longest] - from[longest]) longest = k;
     if (to[longest] == from[longest]) {
-      cells_.push_back(grid_.key(from));
+      cells.push_back(grid_.key(from));
       return;
     }
     Cell below = to, above = from;
     below[longest] = (from[longest] + to[longest]) / 2;
     above[longest] = below[longest] + 1;
-    add_cells(t, from, below);
-    add_cells(t, above, to);
+    add_cells(t, from, below, cells);
+    add_cells(t, above, to, cells);
   }
 
-  // Bit k of `corner`: the farther side along axis k.
-  static Cell corner_of(const Cell& c, int corner) {
-    return {c[0] + (corner & 1), c[1] + (corner >> 1 & 1), c[2] + (corner >> 2 & 1)};
+  // From a cell's number to that of its corner. Bit k of `corner`: the farther side along axis k.
+  std::int64_t offset_of(int corner) const {
+    return grid_.key({corner & 1, corner >> 1 & 1, corner >> 2 & 1});
+  }
+
+  // The corners of the cells: along one axis after the other each node and the next one.
+  void find_nodes() {
+    nodes_ = cells_;
+    std::vector<std::int64_t> next, both;
+    for (const int axis : {1, 2, 4}) {
+      next = nodes_;
+      for (std::int64_t& key : next) key += offset_of(axis);
+      both.clear();
+      std::set_union(nodes_.begin(), nodes_.end(), next.begin(), next.end(), std::back_inserter(both));
+      nodes_.swap(both);
+    }
   }
 
   // Distances from the shells' walls, negative inside, less the margin.
   void sample(const Execution& execution) {
-    std::vector<Index> faces;
-    std::vector<BoundingVolumeHierarchy> solids;
-    for (const Index m : members_) {
-      solids.emplace_back(surface_, shells_[m].faces);
-      faces.insert(faces.end(), shells_[m].faces.begin(), shells_[m].faces.end());
-    }
-    const BoundingVolumeHierarchy walls(surface_, faces);
     // Every node is a corner of a cell that a face or its margin meets.
     const double farthest = 1.01 * (std::sqrt(3.0) * grid_.side() + margin_);
     value_.resize(nodes_.size());
     parallel_for(
         static_cast<Index>(nodes_.size()), "union of shells", execution, [] { return 0; },
         [&](Index i, int&) {
-          const Vector3 p = grid_.place(grid_.cell(nodes_[i]));
-          bool inside = false;
-          for (std::size_t m = 0; m < members_.size() && !inside; ++m) {
-            const Shell& shell = shells_[members_[m]];
-            inside = (p.array() >= shell.low.array()).all() && (p.array() <= shell.high.array()).all() &&
-                     solids[m].inside(p);
-          }
-          const double distance = std::min(walls.closest(p, farthest).distance, farthest);
-          value_[i] = (inside ? -distance : distance) - margin_;
+          const Vector3 p = place(i);
+          const double distance = group_.distance(p, farthest);
+          value_[i] = (group_.inside(p) ? -distance : distance) - margin_;
         },
         256);
   }
 
-  Index node(const Cell& c) const {
-    return static_cast<Index>(std::lower_bound(nodes_.begin(), nodes_.end(), grid_.key(c)) - nodes_.begin());
-  }
-
-  const SurfaceSnapshot& surface_;
-  const std::vector<Shell>& shells_;
-  const std::vector<Index>& members_;
+  const ShellGroup& group_;
   double margin_;
   Lattice grid_;
-  std::vector<std::int64_t> cells_, nodes_;
-  std::size_t kept_ = 0;
-  std::vector<double> value_;  // per node
+  std::vector<std::int64_t> cells_, nodes_;  // ascending
+  std::vector<double> value_;                // per node
 };
 
 }  // namespace
 
-PolygonSoup boundary_of_union(const SurfaceSnapshot& surface, const std::vector<Shell>& shells,
-                              const std::vector<Index>& members, double cell, double margin,
+ShellGroup::ShellGroup(const SurfaceSnapshot& surface, const std::vector<Shell>& shells,
+                       const std::vector<Index>& members, const Execution& execution)
+    : surface_(surface), low_(shells[members[0]].low), high_(shells[members[0]].high) {
+  for (const Index m : members) {
+    members_.push_back(&shells[m]);
+    faces_.insert(faces_.end(), shells[m].faces.begin(), shells[m].faces.end());
+    low_ = low_.cwiseMin(shells[m].low);
+    high_ = high_.cwiseMax(shells[m].high);
+  }
+  solids_.resize(members.size());
+  // The walls of all take as long as the solids together.
+  parallel_for(
+      static_cast<Index>(members.size()) + 1, "union of shells", execution, [] { return 0; },
+      [&](Index i, int&) {
+        if (i == 0)
+          walls_.emplace(surface_, faces_);
+        else
+          solids_[i - 1].emplace(surface_, members_[i - 1]->faces);
+      },
+      1);
+}
+
+bool ShellGroup::inside(const Vector3& p) const {
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    const Shell& shell = *members_[i];
+    if ((p.array() >= shell.low.array()).all() && (p.array() <= shell.high.array()).all() &&
+        solids_[i]->inside(p))
+      return true;
+  }
+  return false;
+}
+
+double ShellGroup::distance(const Vector3& p, double bound) const {
+  return std::min(walls_->closest(p, bound).distance, bound);
+}
+
+PolygonSoup boundary_of_union(const ShellGroup& group, double cell, double margin,
                               const Execution& execution) {
-  return UnionBoundary(surface, shells, members, cell, margin).run(execution);
+  return UnionBoundary(group, cell, margin).run(execution);
 }
 
 }  // namespace mspskel::detail

@@ -20,25 +20,28 @@ class TetrahedronCutter {
 
   // Bit k of a corner's number: the farther side along axis k. Six tetrahedra, one for each way along the
   // axes from the first corner to the last.
-  void cut_cube(const std::array<Index, 8>& corner) {
-    const auto inside = std::count_if(corner.begin(), corner.end(), [&](Index n) { return is_inside(n); });
+  void cut_cube(const std::array<Index, 8>& nodes) {
+    const auto inside =
+        std::count_if(nodes.begin(), nodes.end(), [&](Index n) { return field_.value(n) < 0; });
     if (inside == 0 || inside == 8) return;
+    node_ = nodes;
+    for (int k = 0; k < 8; ++k) {
+      value_[k] = field_.value(nodes[k]);
+      place_[k] = field_.place(nodes[k]);
+    }
     static constexpr int kWays[6][2] = {{1, 3}, {1, 5}, {2, 3}, {2, 6}, {4, 5}, {4, 6}};
-    for (const auto& [first, second] : kWays)
-      cut_tetrahedron({corner[0], corner[first], corner[second], corner[7]});
+    for (const auto& [first, second] : kWays) cut_tetrahedron({0, first, second, 7});
   }
 
   PolygonSoup take() { return std::move(soup_); }
 
  private:
-  using Edge = std::array<Index, 2>;  // from a node inside to one outside
+  using Edge = std::array<int, 2>;  // from a corner inside to one outside
 
-  bool is_inside(Index node) const { return field_.value(node) < 0; }
-
-  void cut_tetrahedron(const std::array<Index, 4>& nodes) {
-    std::array<Index, 4> in{}, out{};
+  void cut_tetrahedron(const std::array<int, 4>& corners) {
+    std::array<int, 4> in{}, out{};
     int ins = 0, outs = 0;
-    for (const Index n : nodes) (is_inside(n) ? in[ins++] : out[outs++]) = n;
+    for (const int k : corners) (value_[k] < 0 ? in[ins++] : out[outs++]) = k;
     if (ins == 1) {
       add(in, ins, out, outs, {{{in[0], out[0]}, {in[0], out[1]}, {in[0], out[2]}}});
     } else if (ins == 3) {
@@ -50,12 +53,12 @@ class TetrahedronCutter {
   }
 
   // Seen from outside counter-clockwise, which the middles of the edges decide.
-  void add(const std::array<Index, 4>& in, int ins, const std::array<Index, 4>& out, int outs,
+  void add(const std::array<int, 4>& in, int ins, const std::array<int, 4>& out, int outs,
            const std::array<Edge, 3>& edges) {
     Vector3 outward = Vector3::Zero();
-    for (int i = 0; i < outs; ++i) outward += field_.place(out[i]) / outs;
-    for (int i = 0; i < ins; ++i) outward -= field_.place(in[i]) / ins;
-    const auto middle = [&](const Edge& e) { return Vector3((field_.place(e[0]) + field_.place(e[1])) / 2); };
+    for (int i = 0; i < outs; ++i) outward += place_[out[i]] / outs;
+    for (int i = 0; i < ins; ++i) outward -= place_[in[i]] / ins;
+    const auto middle = [&](const Edge& e) { return Vector3((place_[e[0]] + place_[e[1]]) / 2); };
     const Vector3 a = middle(edges[0]), b = middle(edges[1]), c = middle(edges[2]);
     const Index u = vertex(edges[0]), v = vertex(edges[1]), w = vertex(edges[2]);
     if ((b - a).cross(c - a).dot(outward) > 0)
@@ -67,17 +70,21 @@ class TetrahedronCutter {
   Index vertex(const Edge& e) {
     constexpr double kClear = 0.05;  // of the edge, from its ends: triangles keep an area
     const auto [entry, added] = vertices_.try_emplace(
-        static_cast<std::uint64_t>(e[0]) * node_count_ + static_cast<std::uint64_t>(e[1]),
+        static_cast<std::uint64_t>(node_[e[0]]) * node_count_ + static_cast<std::uint64_t>(node_[e[1]]),
         soup_.points.size());
     if (!added) return static_cast<Index>(entry->second);
-    const Vector3 from = field_.place(e[0]), to = field_.place(e[1]);
-    const double inside = field_.value(e[0]), share = inside / (inside - field_.value(e[1]));
+    const Vector3 &from = place_[e[0]], &to = place_[e[1]];
+    const double inside = value_[e[0]], share = inside / (inside - value_[e[1]]);
     soup_.points.push_back(from + std::clamp(share, kClear, 1 - kClear) * (to - from));
     return static_cast<Index>(entry->second);
   }
 
   const Field& field_;
   std::uint64_t node_count_;
+  // Of the cube's corners.
+  std::array<Index, 8> node_{};
+  std::array<double, 8> value_{};
+  std::array<Vector3, 8> place_;
   std::unordered_map<std::uint64_t, std::size_t> vertices_;
   PolygonSoup soup_;
 };

@@ -16,13 +16,13 @@ namespace mspskel {
 namespace {
 
 using detail::Shell;
+using detail::ShellGroup;
 using detail::WholePieces;
 
 // The way through the shell's solid that is longer from nine of ten of its vertices: limbs are thinner than
 // most.
-double thickness(const SurfaceSnapshot& surface, const Shell& shell) {
+double thickness(const SurfaceSnapshot& surface, const Shell& shell, const BoundingVolumeHierarchy& solid) {
   constexpr std::size_t kSamples = 200, kThin = 10;
-  const BoundingVolumeHierarchy solid(surface, shell.faces);
   std::vector<double> ways;
   for (std::size_t i = 0; i < shell.vertices.size(); i += 1 + shell.vertices.size() / kSamples) {
     const Index v = shell.vertices[i];
@@ -36,29 +36,18 @@ double thickness(const SurfaceSnapshot& surface, const Shell& shell) {
   return ways[ways.size() / kThin];
 }
 
-double extent_of(const std::vector<Shell>& shells, const std::vector<Index>& members) {
-  Vector3 low = shells[members[0]].low, high = shells[members[0]].high;
-  for (const Index m : members) {
-    low = low.cwiseMin(shells[m].low);
-    high = high.cwiseMax(shells[m].high);
-  }
-  return (high - low).norm();
-}
-
-double cell_for(const SurfaceSnapshot& surface, const std::vector<Shell>& shells,
-                const std::vector<Index>& members, const UniteOptions& options) {
+double cell_for(const ShellGroup& group, const UniteOptions& options) {
   constexpr double kCoarsest = 0.01, kFinest = 0.001, kCellsAcross = 3, kNodesACell = 6;
   // Few faces tell of few details.
   constexpr double kNodesAFace = 20, kFewestNodes = 6e4, kMostNodes = 3e5;
-  const double extent = extent_of(shells, members);
+  const double extent = (group.high() - group.low()).norm();
   if (options.cell > 0) return options.cell * extent;
-  double thinnest = extent, area = 0, faces = 0;
-  for (const Index m : members) {
-    thinnest = std::min(thinnest, thickness(surface, shells[m]));
-    faces += static_cast<double>(shells[m].faces.size());
-    for (const Index f : shells[m].faces) area += surface.face_normal_times_twice_area(f).norm() / 2;
-  }
-  const double nodes = std::clamp(kNodesAFace * faces, kFewestNodes, kMostNodes);
+  double thinnest = extent, area = 0;
+  for (std::size_t i = 0; i < group.size(); ++i)
+    thinnest = std::min(thinnest, thickness(group.surface(), group.shell(i), group.solid(i)));
+  for (const Index f : group.faces()) area += group.surface().face_normal_times_twice_area(f).norm() / 2;
+  const double nodes =
+      std::clamp(kNodesAFace * static_cast<double>(group.faces().size()), kFewestNodes, kMostNodes);
   const double affordable = std::sqrt(kNodesACell * area / nodes);
   return std::clamp(thinnest / kCellsAcross, std::max(kFinest * extent, affordable),
                     std::max(kCoarsest * extent, affordable));
@@ -67,9 +56,8 @@ double cell_for(const SurfaceSnapshot& surface, const std::vector<Shell>& shells
 // Shells that cross hang together, and so does their union, unless parts of it are thinner than the cells.
 // Nothing if the union has more handles than its shells have and n of them can make by touching: an assembly
 // of parts in contact, or walls too thin for the cells.
-std::optional<WholePieces> unite(const SurfaceSnapshot& surface, const std::vector<Shell>& shells,
-                                 const std::vector<Index>& members, double cell, const Execution& execution) {
-  const std::vector<Index> euler = twice_euler_characteristics(surface);
+std::optional<WholePieces> unite(const ShellGroup& group, const std::vector<Index>& members,
+                                 const std::vector<Index>& euler, double cell, const Execution& execution) {
   Index own = 0;
   for (const Index m : members) own += (4 - euler[m]) / 4;
   const auto faults = [&](const WholePieces& pieces) {
@@ -78,8 +66,7 @@ std::optional<WholePieces> unite(const SurfaceSnapshot& surface, const std::vect
   std::optional<WholePieces> best;
   for (const double margin : {0.0, 0.5 * std::sqrt(3.0) * cell}) {
     if (best && faults(*best) == 0) break;
-    WholePieces pieces =
-        detail::without_crumbs(detail::boundary_of_union(surface, shells, members, cell, margin, execution));
+    WholePieces pieces = detail::without_crumbs(detail::boundary_of_union(group, cell, margin, execution));
     if (pieces.solids > 0 && (!best || faults(pieces) < faults(*best))) best = std::move(pieces);
   }
   if (best && best->genus > own + static_cast<Index>(members.size())) best.reset();
@@ -106,7 +93,8 @@ class Uniting {
                                 united_.vertex_of[surface_.origin[3 * f + 2]]);
   }
 
-  void replace(const std::vector<Index>& members, const WholePieces& pieces, double cell) {
+  void replace(const std::vector<Index>& members, const WholePieces& pieces, double cell,
+               const Execution& execution) {
     const auto first = static_cast<Index>(united_.soup.points.size());
     for (const Vector3& p : pieces.soup.points) united_.soup.points.push_back(surface_.frame.to_model(p));
     for (std::size_t i = 0; i < pieces.soup.corners.size(); i += 3)
@@ -116,9 +104,14 @@ class Uniting {
     const BoundingVolumeHierarchy tree(part);
     for (const Index m : members) {
       united_.replaced[m] = true;
-      for (const Index v : shells_[m].vertices)
-        united_.vertex_of[v] =
-            first + nearest_vertex(part, tree, part.frame.to_normalised(surface_.position[v]));
+      const std::vector<Index>& vertices = shells_[m].vertices;
+      parallel_for(
+          static_cast<Index>(vertices.size()), "union of shells", execution, [] { return 0; },
+          [&](Index i, int&) {
+            united_.vertex_of[vertices[i]] =
+                first + nearest_vertex(part, tree, part.frame.to_normalised(surface_.position[vertices[i]]));
+          },
+          256);
     }
     united_.shells += static_cast<Index>(members.size());
     united_.solids += pieces.solids;
@@ -173,12 +166,14 @@ UnitedShells unite_shells(const SurfaceSnapshot& surface, const std::vector<std:
   Uniting uniting(surface, shells);
   for (Index c = 0; c < surface.component_count; ++c)
     if (!grouped[c]) uniting.keep(c);
-  for (const std::vector<Index>& group : groups) {
-    const double cell = cell_for(surface, shells, group, options);
-    if (const std::optional<WholePieces> pieces = unite(surface, shells, group, cell, execution))
-      uniting.replace(group, *pieces, cell);
+  const std::vector<Index> euler = twice_euler_characteristics(surface);
+  for (const std::vector<Index>& members : groups) {
+    const ShellGroup group(surface, shells, members, execution);
+    const double cell = cell_for(group, options);
+    if (const std::optional<WholePieces> pieces = unite(group, members, euler, cell, execution))
+      uniting.replace(members, *pieces, cell, execution);
     else
-      uniting.leave_apart(group);
+      uniting.leave_apart(members);
   }
   return uniting.take();
 }
