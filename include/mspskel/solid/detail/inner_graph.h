@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <queue>
 #include <tuple>
@@ -42,6 +43,7 @@ class InnerPaths {
       if (usable(v)) index_.add(v, point_[v], point_[v]);
     index_.build();
     marks_.assign(surface_.position.size(), {});
+    edge_.assign(surface_.origin.size(), EdgeState::kUnknown);
   }
 
   // Points strictly between a and b along the cheapest path, or false, also where the search comes by more
@@ -55,19 +57,19 @@ class InnerPaths {
     if (goals.empty()) return false;
     for (const Index v : goals) mark(v).goal = true;
     const Landmarks::Goal goal = most == kAnyNumber ? landmarks_.goal(goals) : Landmarks::Goal();
-    // By the cost of the whole way at least; then the cost so far, the vertex and the one before it.
-    using Reach = std::tuple<double, double, Index, Index>;
+    // By the cost of the whole way at least.
+    using Reach = std::pair<double, Entry>;
     std::priority_queue<Reach, std::vector<Reach>, std::greater<Reach>> queue;
     const auto reach = [&](double cost, Index v, Index before) {
-      queue.push({cost + goal.bound(v), cost, v, before});
+      queue.push({cost + goal.bound(v), {cost, v, before}});
     };
     for (const auto& [distance, v] : entries(a)) reach(step_cost(distance, clearance(v)), v, kNone);
     bool found = false;
-    while (!queue.empty() && !found) {
-      const auto [least, cost, v, before] = queue.top();
+    while (!queue.empty()) {
+      const auto [cost, v, before] = queue.top().second;
       queue.pop();
       // Whether an edge stays inside is asked where it would be the cheapest way, which few edges are.
-      if (marks_[v].done || (before != kNone && solid_.segment_crosses(point_[before], point_[v]))) continue;
+      if (marks_[v].done || (before != kNone && edge_crosses(before, v))) continue;
       if (most != kAnyNumber && most-- <= 0) return false;
       mark(v).done = true;
       marks_[v].before = before;
@@ -76,6 +78,7 @@ class InnerPaths {
         for (Index w = v; w != kNone; w = marks_[w].before) between.push_back(point_[w]);
         std::reverse(between.begin(), between.end());
         found = true;
+        break;
       }
       for_each_edge(v, [&, cost = cost, v = v](Index w, double more) {
         if (!marks_[w].done) reach(cost + more, w, v);
@@ -104,7 +107,7 @@ class InnerPaths {
                                : places[before].label + crossings(point_[places[before].vertex], point_[v]);
       std::vector<Index>& here = at[v];
       if (std::any_of(here.begin(), here.end(), [&](Index p) { return places[p].label == label; }) ||
-          (before != kNone && solid_.segment_crosses(point_[places[before].vertex], point_[v])))
+          (before != kNone && edge_crosses(places[before].vertex, v)))
         continue;
       const auto place = static_cast<Index>(places.size());
       here.push_back(place);
@@ -149,6 +152,8 @@ class InnerPaths {
     CocycleLabel label;
   };
 
+  enum class EdgeState : std::uint8_t { kUnknown, kInside, kCrosses };
+
   struct Mark {
     Index before = kNone;
     bool done = false, goal = false;
@@ -172,6 +177,16 @@ class InnerPaths {
   double clearance(Index v) {
     if (clearance_[v] == kUnknown) clearance_[v] = solid_.distance(point_[v]);
     return clearance_[v];
+  }
+
+  // Whether the way along an edge of the surface meets what bounds the solid. Searches come by the same edges
+  // time after time, so the solid is asked once.
+  bool edge_crosses(Index from, Index to) {
+    Index h = surface_.vertex_halfedge[from];
+    while (surface_.target(h) != to) h = surface_.next_outgoing(h);
+    if (edge_[h] == EdgeState::kUnknown)
+      edge_[h] = solid_.segment_crosses(point_[from], point_[to]) ? EdgeState::kCrosses : EdgeState::kInside;
+    return edge_[h] == EdgeState::kCrosses;
   }
 
   static double step_cost(double length, double clearance) { return length / std::max(clearance, 1e-6); }
@@ -231,6 +246,7 @@ class InnerPaths {
   std::vector<Vector3> point_;
   std::vector<double> clearance_;  // 0: no chord
   BoxIndex index_;                 // of the usable points
+  std::vector<EdgeState> edge_;    // per half-edge
   std::vector<Mark> marks_;        // per vertex; of `marked_` alone they mean something
   std::vector<Index> marked_;
   Landmarks landmarks_;      // of this graph, where searches have come by many vertices
