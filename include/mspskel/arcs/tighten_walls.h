@@ -21,9 +21,9 @@ namespace mspskel {
 // A shell with loops and no leaf gets an arc from the end of a tube to the middle of its floor, which is
 // where the axis of its opening runs inside; the shortest of these arcs. A point moves only as far as its
 // edges stay off the surface. Returns the number of arcs drawn. Cost: a section a point, and a closest point
-// and a ray a point and round; a path through the solid an end of a tube.
+// and a ray a point and round; a path through the solid an end of a tube. Throws Cancelled.
 Index tighten_in_walls(ArcGraph& graph, detail::InnerGraph& inner, const std::vector<bool>& shells,
-                       double step, const CrossingLabels& crossings = {});
+                       double step, const CrossingLabels& crossings = {}, const Execution& execution = {});
 
 }  // namespace mspskel
 

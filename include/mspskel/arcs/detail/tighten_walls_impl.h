@@ -16,11 +16,11 @@
 namespace mspskel {
 namespace detail {
 
-// The arcs of shells, one after the other.
+// The arcs of shells.
 class WallArcs {
  public:
   WallArcs(ArcGraph& graph, InnerGraph& inner, const std::vector<bool>& shells, double step,
-           const CrossingLabels& crossings)
+           const CrossingLabels& crossings, const Execution& execution)
       : graph_(graph),
         surface_(inner.surface()),
         solid_(inner.solid()),
@@ -29,6 +29,7 @@ class WallArcs {
         crossings_(crossings),
         line_(solid_, step, crossings),
         step_(step),
+        execution_(execution),
         component_(hub_components(graph, surface_)),
         ends_(shells.size()),
         has_leaf_(shells.size(), false) {}
@@ -44,9 +45,10 @@ class WallArcs {
       arc.points = resampled_inside(arc, step_, solid_, crossings_);
       const bool ring = arc.hub[0] == arc.hub[1] && at[arc.hub[0]].size() == 2;
       if (ring && !begin_in_tube(graph_, a, solid_)) continue;
-      tighten(a, c);
+      divide(a);
       ++drawn;
     }
+    tighten();
     const std::vector<SolidMoments> moments = solid_moments(surface_);
     for (std::size_t c = 0; c < shells_.size(); ++c)
       if (shells_[c] && !has_leaf_[c] && !ends_[c].empty() && add_floor(moments[c], ends_[c])) ++drawn;
@@ -60,37 +62,64 @@ class WallArcs {
     std::size_t point;
   };
 
-  void tighten(Index arc, Index component) {
-    std::vector<Vector3>& points = graph_.arcs[arc].points;
-    const std::vector<std::uint8_t> tube = in_tubes(points, solid_);
-    std::vector<Vector3> tight{points.front()};
-    for (std::size_t i = 0; i + 1 < points.size();) {
-      std::size_t end = i + 1;
-      while (end + 1 < points.size() && !tube[end]) ++end;
-      std::vector<Vector3> stretch(points.begin() + static_cast<std::ptrdiff_t>(i),
-                                   points.begin() + static_cast<std::ptrdiff_t>(end + 1));
-      if (end > i + 1) {
-        stretch = shortest(std::move(stretch));
-        if (tube[i] && i > 0) ends_[component].push_back({arc, tight.size() - 1});
-        if (tube[end] && end + 1 < points.size())
-          ends_[component].push_back({arc, tight.size() + stretch.size() - 2});
-      }
-      tight.insert(tight.end(), stretch.begin() + 1, stretch.end());
-      i = end;
-    }
-    points = std::move(tight);
-  }
+  // A stretch of an arc between two tubes or ends, with the ways that it may take; or a step in a tube.
+  struct Part {
+    Index arc;
+    std::size_t first, last;                 // points of the arc
+    bool begins_tube, ends_tube;             // whether a tube opens into the wall there
+    std::vector<std::vector<Vector3>> ways;  // none in a tube
+  };
 
   // Heat flow stops at the nearest of the ways that no small move makes shorter: round the wall, say, where
   // down is nearer. So the shortest way in the middle of the wall is tried as well.
-  std::vector<Vector3> shortest(std::vector<Vector3> stretch) {
-    const Vector3 from = stretch.front(), to = stretch.back();
-    const CocycleLabel label = crossings_.along(stretch);
-    std::vector<Vector3> tight = line_.tighten(std::move(stretch));
-    std::optional<std::vector<Vector3>> way = way_of_class(inner_, crossings_, from, to, label);
-    if (!way) return tight;
-    way = line_.tighten(std::move(*way));
-    return length_of(*way) + step_ < length_of(tight) ? *way : tight;
+  void divide(Index arc) {
+    const std::vector<Vector3>& points = graph_.arcs[arc].points;
+    const std::vector<std::uint8_t> tube = in_tubes(points, solid_);
+    for (std::size_t i = 0; i + 1 < points.size();) {
+      std::size_t end = i + 1;
+      while (end + 1 < points.size() && !tube[end]) ++end;
+      Part part{arc, i, end, tube[i] && i > 0, tube[end] && end + 1 < points.size(), {}};
+      if (end > i + 1) {
+        part.ways.emplace_back(points.begin() + static_cast<std::ptrdiff_t>(i),
+                               points.begin() + static_cast<std::ptrdiff_t>(end + 1));
+        if (auto way =
+                way_of_class(inner_, crossings_, points[i], points[end], crossings_.along(part.ways.front())))
+          part.ways.push_back(std::move(*way));
+      }
+      parts_.push_back(std::move(part));
+      i = end;
+    }
+  }
+
+  // Draws all ways tight, and gives the arcs the shorter ones.
+  void tighten() {
+    std::vector<std::vector<Vector3>*> ways;
+    for (Part& part : parts_)
+      for (std::vector<Vector3>& way : part.ways) ways.push_back(&way);
+    parallel_for(
+        static_cast<Index>(ways.size()), "arcs", execution_, [] { return 0; },
+        [&](Index i, int) { *ways[i] = line_.tighten(std::move(*ways[i])); }, 1);
+    for (std::size_t first = 0, last = 0; first < parts_.size(); first = last) {
+      std::vector<Vector3>& points = graph_.arcs[parts_[first].arc].points;
+      std::vector<Vector3> tight{points.front()};
+      for (; last < parts_.size() && parts_[last].arc == parts_[first].arc; ++last)
+        append(parts_[last], tight);
+      points = std::move(tight);
+    }
+  }
+  void append(const Part& part, std::vector<Vector3>& tight) {
+    const Arc& arc = graph_.arcs[part.arc];
+    if (part.ways.empty()) {
+      tight.insert(tight.end(), arc.points.begin() + static_cast<std::ptrdiff_t>(part.first + 1),
+                   arc.points.begin() + static_cast<std::ptrdiff_t>(part.last + 1));
+      return;
+    }
+    const bool other = part.ways.size() > 1 && length_of(part.ways[1]) + step_ < length_of(part.ways[0]);
+    const std::vector<Vector3>& way = part.ways[other ? 1 : 0];
+    std::vector<TubeEnd>& ends = ends_[component_[arc.hub[0]]];
+    if (part.begins_tube) ends.push_back({part.arc, tight.size() - 1});
+    if (part.ends_tube) ends.push_back({part.arc, tight.size() + way.size() - 2});
+    tight.insert(tight.end(), way.begin() + 1, way.end());
   }
 
   bool add_floor(const SolidMoments& moments, const std::vector<TubeEnd>& ends) {
@@ -130,7 +159,9 @@ class WallArcs {
   const CrossingLabels& crossings_;
   const TightLine line_;
   const double step_;
+  const Execution& execution_;
   const std::vector<Index> component_;      // of each hub
+  std::vector<Part> parts_;                 // of the arcs that are drawn, in order
   std::vector<std::vector<TubeEnd>> ends_;  // where tubes open into walls, per component
   std::vector<bool> has_leaf_;              // per component
 };
@@ -139,11 +170,11 @@ class WallArcs {
 
 MSPSKEL_INLINE Index tighten_in_walls(ArcGraph& graph, detail::InnerGraph& inner,
                                       const std::vector<bool>& shells, double step,
-                                      const CrossingLabels& crossings) {
+                                      const CrossingLabels& crossings, const Execution& execution) {
   if (std::find(shells.begin(), shells.end(), true) == shells.end()) return 0;
   std::vector<bool> left(shells);
   if (auto hung = detail::VesselTrees(graph, inner, step, crossings).run(left)) graph = std::move(*hung);
-  return detail::WallArcs(graph, inner, left, step, crossings).run();
+  return detail::WallArcs(graph, inner, left, step, crossings, execution).run();
 }
 
 }  // namespace mspskel

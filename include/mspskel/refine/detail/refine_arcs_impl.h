@@ -127,7 +127,7 @@ class ArcRefinement {
     keep_type("laying of paths");
   }
   void tighten(const std::vector<bool>& shells) {
-    tighten_in_walls(graph_, inner_, shells, options_.centering.step, classes_.crossings);
+    tighten_in_walls(graph_, inner_, shells, options_.centering.step, classes_.crossings, execution_);
     keep_type("tightening in walls");
   }
   void prune() {
