@@ -115,14 +115,15 @@ inline bool inside_region(const FlatRegion& region, const Plane& plane, const Ve
 
 namespace regions {
 
-// All contours of the plane with the given faces.
-inline std::vector<Contour> all_contours(const SurfaceSnapshot& surface, const std::vector<Index>& faces,
-                                         const Plane& plane) {
+// All contours of the plane with the component. `positive`: room for a flag a vertex of the surface.
+inline std::vector<Contour> all_contours(const SurfaceSnapshot& surface, const ComponentElements& component,
+                                         const Plane& plane, std::vector<std::uint8_t>& positive) {
   const PlaneSide side{surface, plane};
+  for (const Index v : component.vertices) positive[v] = side(v) >= 0;
   std::vector<Index> starts;
-  for (const Index f : faces) {
-    const bool s[3] = {side(surface.origin[3 * f]) >= 0, side(surface.origin[3 * f + 1]) >= 0,
-                       side(surface.origin[3 * f + 2]) >= 0};
+  for (const Index f : component.faces) {
+    const bool s[3] = {positive[surface.origin[3 * f]] != 0, positive[surface.origin[3 * f + 1]] != 0,
+                       positive[surface.origin[3 * f + 2]] != 0};
     if (s[0] == s[1] && s[1] == s[2]) continue;
     for (Index i = 0; i < 3; ++i)
       if (!s[i] && s[(i + 1) % 3]) starts.push_back(3 * f + i);
@@ -166,11 +167,12 @@ inline std::vector<Index> nesting(const std::vector<Contour>& contours, const Pl
 
 // The flat regions of the plane in the solid that this component bounds, by increasing perimeter. `outward`
 // is −1 if the component's faces are turned inward. Empty where outer contours and holes do not alternate as
-// they do on a surface without self-intersections. Cost: O(faces + contours²).
+// they do on a surface without self-intersections. `positive`: room for a flag a vertex of the surface.
+// Cost: O(faces + contours²).
 inline std::vector<FlatRegion> flat_regions(const SurfaceSnapshot& surface,
                                             const ComponentElements& component, int outward,
-                                            const Plane& plane) {
-  std::vector<Contour> contours = regions::all_contours(surface, component.faces, plane);
+                                            const Plane& plane, std::vector<std::uint8_t>& positive) {
+  std::vector<Contour> contours = regions::all_contours(surface, component, plane, positive);
   for (Contour& contour : contours) contour.area *= outward;
   const std::vector<Index> parent = regions::nesting(contours, plane);
   std::vector<FlatRegion> result;

@@ -80,6 +80,7 @@ class CocycleSearch {
   std::vector<Index> slot_;
   std::vector<Use> uses_;
   std::vector<bool> on_loop_, touched_;  // per vertex
+  std::vector<std::uint8_t> positive_;   // per vertex, of the plane that is looked at
   VolumeCocycles result_;
 };
 
@@ -112,6 +113,7 @@ inline bool CocycleSearch::any_open() const {
 inline void CocycleSearch::index_loops() {
   slot_.assign(surface_.origin.size() + 1, 0);
   on_loop_.assign(surface_.position.size(), false);
+  positive_.resize(surface_.position.size());
   const auto each = [&](auto&& visit) {
     for (const Component& component : components_)
       for (std::size_t i = 0; i < component.generators.loop.size(); ++i)
@@ -194,7 +196,8 @@ inline void CocycleSearch::try_plane(Component& component, Index vertex, const V
   report_progress(progress_, "cocycles", 0.2);
   const auto plane = generic_plane(surface_, component.elements.vertices, vertex, normal, kWindow * longest);
   if (!plane) return;
-  for (FlatRegion& region : flat_regions(surface_, component.elements, component.outward, *plane)) {
+  for (FlatRegion& region :
+       flat_regions(surface_, component.elements, component.outward, *plane, positive_)) {
     if (!component.open()) return;
     if (region.is_disc() && options_.use_discs)
       keep_region(component, region, *plane);
