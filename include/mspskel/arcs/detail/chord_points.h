@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 
@@ -58,29 +60,37 @@ class ChordPoints {
   }
 
   const Point& operator()(Index v, Layer layer) {
-    const auto [it, fresh] = points_.try_emplace(2 * std::int64_t{v} + layer);
-    if (!fresh) return it->second;
+    Below& at = below_.try_emplace(v).first->second;
+    std::optional<Point>& known = at.point[layer];
+    if (known) return *known;
+    if (!at.looked && surface_.vertex_halfedge[v] != kNone) at.chord = inward_chord(surface_, solid_, v);
+    at.looked = true;
     Point point;
     point.x = surface_.position[v];
-    place(v, layer, point);
-    return points_[2 * std::int64_t{v} + layer] = std::move(point);
+    if (at.chord) place(v, layer, *at.chord, point);
+    known = std::move(point);
+    return *known;
   }
 
  private:
-  void place(Index v, Layer layer, Point& point) {
+  // What is known of a vertex.
+  struct Below {
+    bool looked = false;  // for its chord
+    std::optional<InwardChord> chord;
+    std::array<std::optional<Point>, 2> point;  // by layer
+  };
+
+  void place(Index v, Layer layer, const InwardChord& chord, Point& point) {
     constexpr double kShallowShare = 0.05, kOfEdge = 0.02;
-    if (surface_.vertex_halfedge[v] == kNone) return;
-    const auto chord = inward_chord(surface_, solid_, v);
-    if (!chord) return;
     const Vector3& position = surface_.position[v];
-    double depth = 0.5 * chord->length;
+    double depth = 0.5 * chord.length;
     if (layer == kShallow)
       for_each_neighbour(surface_, v, [&](Index w) {
         depth = std::min(
-            {depth, kShallowShare * chord->length, kOfEdge * (surface_.position[w] - position).norm()});
+            {depth, kShallowShare * chord.length, kOfEdge * (surface_.position[w] - position).norm()});
       });
     if (!(depth > 0)) return;
-    const Vector3 x = chord->start - depth * surface_.normal[v];
+    const Vector3 x = chord.start - depth * surface_.normal[v];
     point.x = x;
     point.clearance = std::min(depth, solid_.closest(point.x, depth).distance);
     if (layer == kMiddle || !crossings_.has_loops())
@@ -96,7 +106,7 @@ class ChordPoints {
   const SurfaceSnapshot& surface_;
   const BoundingVolumeHierarchy& solid_;
   const CrossingLabels& crossings_;
-  std::unordered_map<std::int64_t, Point> points_;
+  std::unordered_map<Index, Below> below_;  // stays where it is while others come in
 };
 
 }  // namespace detail
