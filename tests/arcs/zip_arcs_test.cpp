@@ -100,3 +100,26 @@ TEST_CASE("As many pairs are compared a zip in a long graph as in a short one") 
   }
   CHECK(compared[1] < 1.25 * compared[0]);
 }
+
+// Two of the seven arcs at a joint lie in the same arm, and one of them goes: the other pairs are as they
+// were.
+TEST_CASE("Pairs of arcs that have not changed are not compared again") {
+  BallGraph jack;
+  jack.blend = 0;
+  jack.nodes = {{{0, 0, 0}, 0.5}};
+  for (int arm = 0; arm < 6; ++arm) {
+    jack.nodes.push_back({(arm % 2 == 0 ? 6.0 : -6.0) * Vector3::Unit(arm / 2), 0.5});
+    jack.edges.push_back({0, arm + 1});
+  }
+  const Solid solid(to_mesh(skin_graph(jack, 3000)));
+  ArcGraph graph;
+  graph.add_hub(solid.at({0, 0, 0}));
+  for (int arm = 0; arm < 6; ++arm)
+    line(graph, 0, graph.add_hub(solid.at(jack.nodes[static_cast<std::size_t>(arm) + 1].position * 0.9)), 11);
+  line(graph, 0, graph.add_hub(solid.at({5.2, 0.1, 0})), 11);
+  map_to_nearest(graph, solid.surface.position);
+  detail::ArcZipper zipper(graph, solid.surface, solid.hierarchy, 0.75, {});
+  CHECK(zipper.run({}) == 1);
+  CHECK(living_arcs(graph) == 6);
+  CHECK(zipper.compared() <= 7 * 6);
+}
