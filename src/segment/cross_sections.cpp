@@ -6,6 +6,22 @@
 #include <utility>
 
 namespace mspskel::detail {
+namespace {
+
+bool is_joint(const std::vector<std::vector<Index>>& neighbours, Index n) { return neighbours[n].size() > 2; }
+
+// Few vertices map to a joint, and their slices run across whichever arc is near.
+void take_from_arcs(const std::vector<std::vector<Index>>& neighbours, std::vector<double>& section) {
+  for (Index n = 0; n < static_cast<Index>(section.size()); ++n) {
+    if (!is_joint(neighbours, n)) continue;
+    double thickest = 0;
+    for (const Index k : neighbours[n])
+      if (!is_joint(neighbours, k)) thickest = std::max(thickest, section[k]);
+    if (thickest > 0) section[n] = thickest;
+  }
+}
+
+}  // namespace
 
 std::vector<double> cross_sections(const CurveSkeleton& skeleton,
                                    const std::vector<std::vector<Index>>& neighbours) {
@@ -34,6 +50,8 @@ std::vector<double> cross_sections(const CurveSkeleton& skeleton,
       const double share = weight[n] * (width > 0 ? 1 - distance / width : 1.0);
       sum += share * raw[n];
       total += share;
+      // What lies beyond a joint is another arc.
+      if (n != from && is_joint(neighbours, n)) continue;
       for (const Index k : neighbours[n]) {
         const double there = distance + (skeleton.nodes[n].position - skeleton.nodes[k].position).norm();
         if (!done[k] && there < width) queue.push({there, k});
@@ -42,6 +60,7 @@ std::vector<double> cross_sections(const CurveSkeleton& skeleton,
     for (const Index n : visited) done[n] = 0;
     smooth[from] = total > 0 ? sum / total : raw[from];
   }
+  take_from_arcs(neighbours, smooth);
   return smooth;
 }
 

@@ -7,8 +7,9 @@
 
 namespace mspskel::detail {
 
-// Mean minimum slice perimeters over 2 pi, averaged by area over the nodes within one inscribed ball along
-// the skeleton. Nodes that know no perimeter have the ball's radius.
+// Mean minimum slice perimeters over 2 pi, averaged by area over the nodes of the same arc, its ends
+// included, within one inscribed ball along it. Nodes that know no perimeter have the ball's radius. A joint
+// is as thick as the thickest arc is next to it.
 std::vector<double> cross_sections(const CurveSkeleton& skeleton,
                                    const std::vector<std::vector<Index>>& neighbours);
 

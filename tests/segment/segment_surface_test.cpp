@@ -7,6 +7,7 @@
 #include <set>
 
 #include "../../apps/bench/subdivide.h"
+#include "../../src/segment/cross_sections.h"
 #include "../topology/voxel_solids.h"
 #include "mspskel/base/error.h"
 #include "mspskel/extract_skeleton.h"
@@ -272,4 +273,21 @@ TEST_CASE("a tube as long as it is wide is a part, a bump like a hemisphere is n
   const double tube = 4 * kPi, hemisphere = 2 * kPi;
   CHECK(count(tube) == 2);
   CHECK(count(hemisphere) == 1);
+}
+
+TEST_CASE("how thick a limb is does not depend on the body that it leaves") {
+  CurveSkeleton skeleton;
+  // A body along x, and a limb whose first nodes lie within the body's ball. No vertex maps to the joint.
+  for (int i = -6; i <= 6; ++i)
+    skeleton.nodes.push_back({Vector3(i, 0, 0), 3, i == 0 ? 0.0 : 6 * kPi, 6 * kPi, 0});
+  for (Index n = 0; n + 1 < 13; ++n) skeleton.edges.push_back({n, n + 1});
+  const Index joint = 6;
+  for (int i = 1; i <= 8; ++i) {
+    const Index n = static_cast<Index>(skeleton.nodes.size());
+    skeleton.nodes.push_back({Vector3(0, i, 0), i < 3 ? 3.0 - i : 1.0, 2 * kPi, 2 * kPi, 0});
+    skeleton.edges.push_back({i == 1 ? joint : n - 1, n});
+  }
+  const std::vector<double> section = detail::cross_sections(skeleton, adjacency(skeleton));
+  for (Index n = 0; n < 13; ++n) CHECK(section[n] == Approx(3));
+  for (Index n = 13; n < 21; ++n) CHECK(section[n] == Approx(1));
 }
