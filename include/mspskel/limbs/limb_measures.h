@@ -104,7 +104,7 @@ inline bool is_digit(const LimbMeasures& m, const LimbOptions& o) {
 inline bool is_ear(const LimbMeasures& m, const LimbOptions& o) {
   constexpr double kAsWide = 1.25;  // a bump's radius by its area is larger than that of its slices
   if (is_blunt(m.depth_over_mouth) && m.half_width > kAsWide * m.carrier_half_chord) return false;
-  return m.slenderness >= 0.3 * o.slenderness && m.slenderness * m.msp_ratio >= 0.65 * o.slenderness &&
+  return m.slenderness >= 0.5 * o.slenderness && m.slenderness * m.msp_ratio >= 0.65 * o.slenderness &&
          !is_corner(m);
 }
 
