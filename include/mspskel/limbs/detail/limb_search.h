@@ -101,7 +101,7 @@ class LimbTipSearch {
     if (level.area > half_area_[surface_.component[v]]) return;
     if (!(level.depth > kLeastTipDepth * smallest_feature(v)) || !(level.area > 1e-12 * level.depth)) return;
     const double slenderness = level.slenderness();
-    const bool tells = twig ? slenderness >= kFinger * options_.slenderness && is_twig(level)
+    const bool tells = twig ? slenderness >= kFinger * options_.slenderness && level.depth_over_mouth() >= 2
                             : slenderness * notes.vertices >= kLeastEvidence;
     if (!tells) return;
     if (slenderness > notes.slenderest.slenderness) notes.slenderest = {slenderness, at};

@@ -22,10 +22,6 @@ struct PartLevel {
   double bulge() const { return 4 * kPi * area / (mouth * mouth); }
 };
 
-// Whether few triangles tell a twig: it is as deep as two radii of its mouth. The bumps of a rough surface
-// are not.
-inline bool is_twig(const PartLevel& level) { return level.depth_over_mouth() >= 2; }
-
 // The area beyond a level and the length of its contour, in one triangle or in several: no more than
 // quadratic and linear in the level as long as it passes no corner, so those of a part add up as it grows.
 struct LevelSum {

@@ -23,8 +23,9 @@ inline bool is_bump(const PartLevel& level, double carrier_rim, const LimbOption
 // A part at the levels at which it is most so.
 struct SlenderPart {
   Index top;             // where it reaches farthest
-  PartLevel slenderest;  // for its area; of no depth where it never is of enough vertices to tell
-  PartLevel narrowest;   // for its mouth; the same where it never is less than half of its component
+  PartLevel slenderest;  // for its area
+  PartLevel narrowest;   // for its mouth; of no depth where it never is less than half of its component, or
+                         // of enough vertices to tell
 };
 
 inline std::vector<double> half_areas_of_components(const SurfaceSnapshot& surface) {
@@ -50,7 +51,7 @@ std::vector<SlenderPart> slender_parts(const SurfaceSnapshot& surface, const std
   Parts parts(surface, distance, std::move(vertices), place);
   std::vector<SlenderPart> found;
   const auto finish = [&](const typename Parts::Part& part) {
-    if (part.notes.slenderest.depth > 0 || part.notes.narrowest.depth > 0)
+    if (part.notes.slenderest.depth > 0)
       found.push_back({part.top, part.notes.slenderest, part.notes.narrowest});
   };
   parts.grow(
@@ -66,13 +67,11 @@ std::vector<SlenderPart> slender_parts(const SurfaceSnapshot& surface, const std
         const PartLevel level = notes.sum.at(distance[v], distance[part.top]);
         // Within rounding a line, which encloses nothing.
         if (!(level.depth > least_depth(v)) || !(level.area > 1e-12 * level.depth)) return;
-        const double evidence = level.slenderness() * notes.vertices;
-        const bool tells = evidence >= kLeastEvidence || is_twig(level);
-        if (tells && (notes.slenderest.depth == 0 || level.slenderness() > notes.slenderest.slenderness()))
+        if (notes.slenderest.depth == 0 || level.slenderness() > notes.slenderest.slenderness())
           notes.slenderest = level;
         if (!(level.mouth > 0) || level.area > half_area[surface.component[v]]) return;
-        // A mouth is a matter of fewer triangles, so that a depth of one edge suffices.
-        if (evidence < 0.5 * kLeastEvidence) return;
+        // A mouth is cut within triangles, so that a depth of one edge suffices.
+        if (level.slenderness() * notes.vertices < 0.5 * kLeastEvidence) return;
         if (notes.narrowest.depth == 0 || level.depth_over_mouth() > notes.narrowest.depth_over_mouth())
           notes.narrowest = level;
       });

@@ -120,7 +120,7 @@ class LimbCompletion {
     const PartLevel& own = part.slenderest;
     const bool is_corner = is_blunt_when_flat(own.depth_over_mouth(), own.slenderness()) &&
                            is_wider_than_carrier(own.depth / own.slenderness(), carrier_[part.top]);
-    if (own.depth > 0 && own.slenderness() >= uncovered_slenderness(options_) && !is_corner) return own;
+    if (own.slenderness() >= uncovered_slenderness(options_) && !is_corner) return own;
     const PartLevel& level = part.narrowest;
     if (level.depth > 0 && is_bump(level, 2 * kPi * carrier_[part.top], options_)) return level;
     return std::nullopt;
