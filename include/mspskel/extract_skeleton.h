@@ -48,7 +48,7 @@ struct ExtractOptions {
   SubdivisionOptions subdivision;
   // Limbs are told on a surface of so many vertices where the input is finer; [4, 2^31). With no more than
   // coarsening.vertices, on that one.
-  Index limb_vertices = 8000;
+  Index limb_vertices = 4000;
   SliceMethod slices = SliceMethod::kSearch;
   SearchOptions search;      // of kSearch
   SamplingOptions sampling;  // of kSampling
