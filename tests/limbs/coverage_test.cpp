@@ -149,3 +149,14 @@ TEST_CASE("Parts beyond a level are measured by their area and by their mouth") 
   CHECK(level.depth_over_mouth() == Approx(4).epsilon(0.1));
   CHECK(level.bulge() == Approx(8).epsilon(0.1));
 }
+
+TEST_CASE("The bumps of a rough ball are no parts") {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    Random random(seed);
+    const DefaultMesh rough =
+        moved(sphere(2562), [&](const Vector3& x) { return Vector3(x * (0.9 + 0.2 * random.uniform())); });
+    const CurveSkeleton skeleton = extract_skeleton(rough).skeleton;
+    const auto next = adjacency(skeleton);
+    CHECK(std::count_if(next.begin(), next.end(), [](const auto& n) { return n.size() == 1; }) == 2);
+  }
+}

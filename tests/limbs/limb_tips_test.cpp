@@ -10,6 +10,7 @@
 #include <set>
 #include <string>
 
+#include "mspskel/limbs/detail/part_level.h"
 #include "mspskel/limbs/detail/part_shape.h"
 #include "mspskel/mesh/coarsen_surface.h"
 #include "support/solids.h"
@@ -50,6 +51,31 @@ TEST_CASE("Samples have the tips that they were made with") {
   CHECK(tips_of(Solid(sample("octoped", 3000))).size() == 9);
   CHECK(tips_of(Solid(sample("y-tube", 1500))).size() == 3);
   CHECK(tips_of(Solid(sample("capsule", 1000))).size() == 2);
+}
+
+TEST_CASE("The sums of a part are what is beyond the level, with the triangles cut") {
+  const Solid solid(jittered(to_mesh(skin_graph(tripod(), 900)), 3, 0.2));
+  std::vector<double> height;
+  std::vector<Index> order;
+  for (const Vector3& x : solid.surface.position) {
+    height.push_back(x.z() + 0.3 * x.x());
+    order.push_back(static_cast<Index>(order.size()));
+  }
+  std::sort(order.begin(), order.end(), [&](Index a, Index b) { return height[a] > height[b]; });
+  detail::LevelSum sum;
+  for (std::size_t i = 0; i + 1 < order.size(); ++i) {
+    sum.add(detail::change_at(solid.surface, height, order[i]));
+    if (i % 50 != 0) continue;
+    for (const double share : {0.0, 0.5, 1.0}) {
+      const double level = height[order[i]] + share * (height[order[i + 1]] - height[order[i]]);
+      detail::PartShapeSum cut(solid.surface, height, level);
+      for (std::size_t k = 0; k <= i; ++k) cut.add_vertex(order[k]);
+      const detail::PartShape shape = cut.shape(height[order[0]]);
+      const detail::PartLevel part = sum.at(level, height[order[0]]);
+      CHECK(part.area == Approx(shape.area).margin(1e-9));
+      CHECK(part.mouth == Approx(shape.mouth).margin(1e-6));
+    }
+  }
 }
 
 TEST_CASE("A shape without limbs has the ends of its longest way as tips, which are no limbs") {
@@ -204,6 +230,57 @@ TEST_CASE("A limb's slenderness is its length over its radius, however fine the 
   }
 }
 
+TEST_CASE("Knobs on a handle are told, and its bends are not") {
+  BallGraph jug;
+  jug.blend = 0.05;
+  jug.nodes = {{{0, 0, 0}, 1.0},     {{-1.5, 0, 1.5}, 0.3},  {{-1.5, 0, 3}, 0.3},  {{1.5, 0, 3}, 0.3},
+               {{1.5, 0, 1.5}, 0.3}, {{-1.8, 0, 3.4}, 0.25}, {{1.8, 0, 3.4}, 0.25}};
+  jug.edges = {{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 0}, {2, 5}, {3, 6}};
+  BallGraph plain = jug;
+  plain.nodes.resize(5);
+  plain.edges.resize(5);
+  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+    const Solid knobs(jittered(to_mesh(skin_graph(jug, 3000)), seed, 0.1));
+    std::set<Index> reached;
+    for (const LimbTip& tip : tips_of(knobs))
+      for (const Index i : {5, 6})
+        if ((knobs.model(tip.position) - jug.nodes[i].position).norm() < 0.5) reached.insert(i);
+    CHECK(reached.size() == 2);
+    for (const LimbTip& tip : tips_of(Solid(jittered(to_mesh(skin_graph(plain, 3000)), seed, 0.1))))
+      CHECK(tip.kind == TipKind::kBodyEnd);
+  }
+}
+
+TEST_CASE("A hair on something thick is no twig, however thin it is") {
+  const PolygonSoup smooth = to_soup(to_mesh(skin_graph(tripod(), 4000)));
+  const std::size_t count = tips_of(Solid(to_mesh(smooth))).size();
+  for (const std::size_t share : {2, 3, 5}) {  // in the middle of a triangle
+    PolygonSoup soup;
+    soup.points = smooth.points;
+    const auto base = static_cast<Index>(soup.points.size());
+    const std::size_t chosen = smooth.polygon_count() / share;
+    for (std::size_t f = 0; f < smooth.polygon_count(); ++f) {
+      const std::array<Index, 3> v = {smooth.corners[3 * f], smooth.corners[3 * f + 1],
+                                      smooth.corners[3 * f + 2]};
+      if (f != chosen) {
+        soup.add_triangle(v[0], v[1], v[2]);
+        continue;
+      }
+      const Vector3 &a = smooth.points[v[0]], &b = smooth.points[v[1]], &c = smooth.points[v[2]];
+      const Vector3 middle = (a + b + c) / 3;
+      for (const Vector3& x : {a, b, c}) soup.points.push_back(middle + 0.1 * (x - middle));
+      soup.points.push_back(middle + 0.08 * (b - a).cross(c - a).normalized());
+      for (Index k = 0; k < 3; ++k) {
+        const Index next = (k + 1) % 3;
+        soup.add_triangle(v[k], v[next], base + next);
+        soup.add_triangle(v[k], base + next, base + k);
+        soup.add_triangle(base + k, base + next, base + 3);
+      }
+    }
+    CHECK(tips_of(Solid(to_mesh(soup))).size() == count);
+  }
+}
+
 TEST_CASE("A twig of a single vertex is a limb, and a bump of one is none") {
   for (const auto& [length, tips] : {std::pair<double, std::size_t>{1.2, 4}, {0.3, 3}}) {
     DefaultMesh mesh = to_mesh(skin_graph(tripod(), 1200));
@@ -239,8 +316,9 @@ TEST_CASE("Small ears count on a body with limbs, and no bump of a body without"
   CHECK(reached.size() == 6);
 
   LimbMeasures bump;
-  bump.depth = bump.half_width = bump.carrier_half_chord = 1;
-  bump.slenderness = 0.6;
+  bump.depth = 0.7;
+  bump.half_width = bump.carrier_half_chord = 1;
+  bump.slenderness = 0.7;
   bump.msp_ratio = 4;
   CHECK(is_ear(bump, {}));
   CHECK_FALSE(is_limb(bump, {}));

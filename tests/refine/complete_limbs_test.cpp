@@ -123,6 +123,36 @@ TEST_CASE("A leaning horn that no arc comes near is reached to its tip") {
   }
 }
 
+TEST_CASE("A limb's tip gets an arc where another one has led through most of the limb") {
+  // A forked end: the arc of one prong is that of the limb as well.
+  BallGraph fork;
+  fork.blend = 0.05;
+  fork.nodes = {{{-4, 0, 0}, 0.3}, {{2, 0, 0}, 0.3}, {{2.5, 0.35, 0}, 0.25}, {{2.5, -0.35, 0}, 0.25}};
+  fork.edges = {{0, 1}, {1, 2}, {1, 3}};
+  const Solid solid(to_mesh(skin_graph(fork, 2000)));
+  ArcGraph graph;
+  for (const Index i : {0, 1, 2}) graph.add_hub(solid.at(fork.nodes[i].position));
+  line(graph, 0, 1);
+  line(graph, 1, 2);
+  map_to_nearest(graph, solid.surface.position);
+  LimbTip tip;
+  const Vector3 end = solid.at(fork.nodes[3].position + Vector3(0.2, -0.15, 0));
+  for (Index v = 0; v < solid.surface.vertex_count(); ++v)
+    if (tip.vertex == kNone ||
+        (solid.surface.position[v] - end).norm() < (solid.surface.position[tip.vertex] - end).norm())
+      tip.vertex = v;
+  tip.position = tip.target = solid.surface.position[tip.vertex];
+  tip.cap = {tip.vertex};
+  const double unit = solid.surface.frame.scale;
+  tip.measures.depth = 6 / unit;  // of the whole limb
+  tip.measures.half_width = 0.3 / unit;
+  tip.measures.slenderness = 20;
+  std::vector<LimbTip> tips = {tip};
+  LimbOptions tips_alone;
+  tips_alone.smallest = 1;
+  CHECK(complete_limbs(graph, solid.surface, solid.hierarchy, tips, tips_alone, 0.01) == 1);
+}
+
 TEST_CASE("Vertices without faces are no limb's") {
   DefaultMesh mesh = to_mesh(skin_graph(tripod(), 1200));
   mesh.add_vertex({9, 9, 9});

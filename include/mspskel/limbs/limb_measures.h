@@ -7,7 +7,9 @@ namespace mspskel {
 
 namespace detail {
 // So much of a limb's end, in half widths, has its mean in the middle of it, on flat ends as well.
-inline constexpr double kEnd = 0.75;
+inline constexpr double kEnd = 0.5;
+// And so much of it is the cap that a leaf arc has to have.
+inline constexpr double kTipCap = 1.2;
 
 // Slenderness times the number of vertices of a part is 7 (depth / edge length)²; below 1.5 edges the
 // triangles decide what is slender.
@@ -32,11 +34,14 @@ inline void validate(const LimbOptions& o) {
 // What a limb is judged by: how far it protrudes for its surface, for its width, and how much smaller its
 // slices are than those of the part that it leaves (the saturation of Eq. 4.5 lifted from nodes to branches).
 struct LimbMeasures {
-  double depth = 0.0;               // how far the limb's surface reaches beyond the rest
-  double half_width = 0.0;          // of its slices: their median, or lower quartile along a way into it
-  double half_chord = 0.0;          // half the chord inward from its surface, the median
-  double carrier_half_chord = 0.0;  // the same of the surface beside its root
-  double msp_ratio = 1.0;           // MSP of the part that it leaves / MSP of the limb, at least 1
+  double depth = 0.0;  // how far the limb's surface reaches beyond the rest
+  // The radius of a tube of its area and depth. Its slices' own widths move with the few triangles of an end.
+  double half_width = 0.0;
+  double half_chord = 0.0;  // half the chord inward from its surface, the median
+  // The same of the surface beside its root, the mean of the logarithms: a median jumps where a thin part
+  // and a thick one meet.
+  double carrier_half_chord = 0.0;
+  double msp_ratio = 1.0;  // MSP of the part that it leaves / MSP of the limb, at least 1
   // 2π depth² / area: length over radius of a tube, 2 / sin of the half angle of a cone. An area moves little
   // under noise and with the triangles, so this decides.
   double slenderness = 0.0;
@@ -59,7 +64,7 @@ inline bool is_blunt_when_flat(double depth_over_mouth, double slenderness) {
 }
 
 // A part that is wider than what carries it is thick, as the corners of plates and the rims of walls.
-inline bool is_wider_than_carrier(double half_width, double carrier) { return half_width > 1.25 * carrier; }
+inline bool is_wider_than_carrier(double half_width, double carrier) { return half_width > 1.35 * carrier; }
 
 // A plate is as wide as half of the contour where it leaves the rest, and its surface faces itself across
 // less than an eighth of that.
@@ -68,20 +73,22 @@ inline bool is_plate(const LimbMeasures& m) {
   return 2 * m.half_chord < 0.125 * width;
 }
 
+// The bend of a bar: blunt, and its slices are no smaller than those beside it.
+inline bool is_bend(const LimbMeasures& m) { return is_blunt(m.depth_over_mouth) && m.msp_ratio < 1.25; }
+
 // The corner of a body: blunt, and widening in proportion to its depth or wider than its carrier. A limb is
 // about as wide at its root as before it. Where the whole body lies behind the surface, less of a taper will
 // do. The corner or the blunt end of a plate does not widen.
 inline bool is_corner(const LimbMeasures& m) {
   if (is_plate(m) && is_blunt_when_flat(m.depth_over_mouth, m.slenderness)) return true;
-  const bool widens = m.mean_depth > (m.half_chord > 3 * m.half_width ? 0.61 : 0.655);
+  const bool widens = m.mean_depth > (m.half_chord > 2.5 * m.half_width ? 0.61 : 0.655);
   return is_blunt(m.depth_over_mouth) &&
          (widens || is_wider_than_carrier(m.half_width, m.carrier_half_chord));
 }
 
 // A limb by its slenderness. Its surface faces itself: inward of the corner of a block is the whole block.
 inline bool is_limb(const LimbMeasures& m, const LimbOptions& o) {
-  return m.slenderness >= o.slenderness && m.depth >= 1.4 * m.half_width &&
-         m.half_chord <= 2 * m.half_width && !is_corner(m);
+  return m.slenderness >= o.slenderness && m.half_chord <= 1.75 * m.half_width && !is_corner(m);
 }
 
 // Slenderness of fingers, in those of limbs.
@@ -95,10 +102,10 @@ inline bool is_digit(const LimbMeasures& m, const LimbOptions& o) {
 // An ear or a horn: a bump rather than a limb, but much smaller than what carries it, and no wider unless it
 // is sharp. Only in a shape that has limbs or whose body ends: a ridge of a plain body may be as much.
 inline bool is_ear(const LimbMeasures& m, const LimbOptions& o) {
-  constexpr double kAsWide = 1.05;  // within the accuracy of the two widths
+  constexpr double kAsWide = 1.25;  // a bump's radius by its area is larger than that of its slices
   if (is_blunt(m.depth_over_mouth) && m.half_width > kAsWide * m.carrier_half_chord) return false;
   return m.slenderness >= 0.3 * o.slenderness && m.slenderness * m.msp_ratio >= 0.65 * o.slenderness &&
-         m.depth >= 0.75 * m.half_width && !is_corner(m);
+         !is_corner(m);
 }
 
 // How slender a part that no arc comes near has to be to get one: as a digit, since the rest of the shape,

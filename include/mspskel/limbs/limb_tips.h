@@ -34,9 +34,11 @@ struct LimbTip {
 // far down as it is most slender: on a tube that is its root, where the area jumps. Maxima are followed until
 // one that is farther takes them over (the persistence of Edelsbrunner, Letscher and Zomorodian 2002,
 // "Topological persistence and simplification") or the part is half of the component, so no limb is measured
-// by another one. It has to be deeper than 1.5 smallest features and 1.5 edges of the surface (a twig of
-// few triangles: as slender as a finger, and two radii of its mouth deep, where it meets another part), be
-// open at one place only (what goes round a handle is open at two), and satisfy is_limb; in a component
+// by another one. Areas and mouths are those of the surface beyond the level, with the triangles cut. It has
+// to be deeper than 1.5 smallest features (as much smaller as what carries it is thin) and 1.5 edges of the
+// surface (a twig of few triangles: as slender as a finger, and two radii of its mouth deep, where it meets
+// another part), be open at one place only (what goes round a handle is open at two; what of it ends before
+// may be a limb, unless it is a bend of the bar), and satisfy is_limb; in a component
 // that has limbs or whose body ends in tips, is_ear will do. None lies in the wall of a shell.
 // A body that is longer than wide has tips where it ends and no limb does, and so has one with handles and
 // without limbs along the axis that stands apart. In a component of genus 0 without limbs the ends of its

@@ -14,10 +14,10 @@ namespace mspskel {
 // bumps: fins, noses and bosses, as deep as their mouth is wide, bulging from it, and no wider than the ball
 // that carries them. Each gets an arc to its top from the nearest point of the skeleton (straight where that
 // is free, else along the middle of the solid), the deepest first, and all is measured again, until no part
-// is left that reaches 3.5 smallest features beyond all balls. It is the law of find_limb_tips with another
-// distance, and that of find_uncovered_parts, so what the report would call uncovered has been tried. A new
-// arc is a leaf, so the homotopy type stays. It takes the vertices that it covers better, and its end becomes
-// a tip as well. Returns the number of arcs added. Cost: O(vertices · points) once, then O(vertices · points
+// is left that reaches 3.5 smallest features, or as far as a thin ball is wide, beyond all balls. It is the
+// law of find_limb_tips with another distance, and that of find_uncovered_parts, so what the report would
+// call uncovered has been tried. A new arc is a leaf, so the homotopy type stays. It takes the vertices that
+// it covers better, and its end becomes a tip as well. Returns the number of arcs added. Cost: O(vertices · points) once, then O(vertices · points
 // of the arc + vertices log vertices) and a few queries an arc tried; at most 64 are tried.
 Index complete_limbs(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
                      std::vector<LimbTip>& tips, const LimbOptions& options, double step);

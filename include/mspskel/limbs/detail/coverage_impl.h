@@ -66,6 +66,7 @@ MSPSKEL_INLINE std::vector<UncoveredPart> find_uncovered_parts(const SurfaceSnap
   for (const detail::SlenderPart& part :
        detail::slender_parts(surface, outside, std::move(beyond),
                              [&](Index v) { return options.smallest * diagonal[surface.component[v]]; })) {
+    if (!(part.slenderest.depth > 0)) continue;
     const double widths = 0.5 * part.slenderest.slenderness();
     if (widths >= kMissedWidths)
       found.push_back({part.top, surface.frame.to_model(surface.position[part.top]),

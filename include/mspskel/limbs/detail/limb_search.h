@@ -9,6 +9,7 @@
 
 #include "mspskel/base/value_at_rank.h"
 #include "mspskel/limbs/detail/growing_parts.h"
+#include "mspskel/limbs/detail/part_level.h"
 #include "mspskel/limbs/detail/part_shape.h"
 #include "mspskel/limbs/limb_tips.h"
 #include "mspskel/solid/detail/inward_chord.h"
@@ -50,10 +51,10 @@ class LimbTipSearch {
     GrowingParts<Notes> parts(surface_, distance_, std::move(reached), place);
     parts.grow(
         [&](Part& high, Part& low, Index saddle) {
-          judge_twig(high, distance_[saddle]);
-          judge_twig(low, distance_[saddle]);
+          judge_before(high, saddle);
+          judge_before(low, saddle);
           if (finish(low)) high.notes.own = std::max(high.notes.own, distance_[saddle]);
-          high.notes.area += low.notes.area;
+          high.notes.sum.add(low.notes.sum);
           high.notes.vertices += low.notes.vertices;
           high.notes.euler += low.notes.euler;
         },
@@ -67,7 +68,7 @@ class LimbTipSearch {
     double slenderness = 0, distance = 0;
   };
   struct Notes {
-    double area = 0;
+    LevelSum sum;
     Index vertices = 0;
     Index euler = 0;   // its Euler characteristic: 1 while it is a disc
     Level slenderest;  // of all levels
@@ -76,20 +77,36 @@ class LimbTipSearch {
   };
   using Part = GrowingParts<Notes>::Part;
 
-  // A limb is less than half of its component.
   void join(Part& part, Index v) {
     Notes& notes = part.notes;
-    notes.area += surface_.vertex_area[v];
+    notes.sum.add(change_at(surface_, distance_, v));
     ++notes.vertices;
     notes.euler += euler_change(v);
-    if (notes.area > half_area_[surface_.component[v]]) return;
-    const double depth = distance_[part.top] - distance_[v];
-    const double slenderness = 2 * kPi * depth * depth / notes.area;
-    if (!(depth > kLeastTipDepth * smallest_feature(v)) || slenderness * notes.vertices < kLeastEvidence)
-      return;
-    const Level level{slenderness, distance_[v]};
-    if (slenderness > notes.slenderest.slenderness) notes.slenderest = level;
-    if (notes.euler == 1 && slenderness > notes.slenderest_disc.slenderness) notes.slenderest_disc = level;
+    judge(part, v, distance_[v]);
+  }
+
+  // Before it meets another one a part is judged without the saddle, and a twig of few triangles at last.
+  void judge_before(Part& part, Index saddle) {
+    const double level = std::nextafter(distance_[saddle], distance_[part.top]);
+    judge(part, saddle, level);
+    if (part.notes.slenderest.slenderness == 0) judge(part, saddle, level, true);
+  }
+
+  // A limb is less than half of its component. What few triangles tell, a twig, has to stand out as a finger
+  // does, and as deep as two radii of its mouth: a slice through its only vertex may lie along it and tells
+  // no width.
+  void judge(Part& part, Index v, double at, bool twig = false) {
+    Notes& notes = part.notes;
+    const PartLevel level = notes.sum.at(at, distance_[part.top]);
+    if (level.area > half_area_[surface_.component[v]]) return;
+    if (!(level.depth > kLeastTipDepth * smallest_feature(v)) || !(level.area > 1e-12 * level.depth)) return;
+    const double slenderness = level.slenderness();
+    const bool tells = twig ? slenderness >= kFinger * options_.slenderness && is_twig(level)
+                            : slenderness * notes.vertices >= kLeastEvidence;
+    if (!tells) return;
+    if (slenderness > notes.slenderest.slenderness) notes.slenderest = {slenderness, at};
+    if (notes.euler == 1 && slenderness > notes.slenderest_disc.slenderness)
+      notes.slenderest_disc = {slenderness, at};
   }
 
   // What the vertex adds to the Euler characteristic of the vertices beyond it: itself, the edges to them,
@@ -108,43 +125,29 @@ class LimbTipSearch {
     return change;
   }
 
-  // A part of so few triangles that its vertices tell no slenderness, with its triangles cut at the level
-  // where it meets another. It has to stand out as a finger does, and as deep as two radii of its mouth: a
-  // slice through the only vertex of a twig may lie along it and tells no width.
-  void judge_twig(Part& part, double level) {
-    constexpr double kDeep = 2;
-    const double depth = distance_[part.top] - level;
-    if (part.notes.slenderest.slenderness > 0 || part.notes.vertices >= kLeastEvidence ||
-        !(depth > kLeastTipDepth * smallest_feature(part.top)))
-      return;
-    PartShapeSum sum(surface_, distance_, level);
-    for (const Index v : part.vertices) sum.add_vertex(v);
-    const PartShape shape = sum.shape(distance_[part.top]);
-    const double slenderness = 2 * kPi * depth * depth / shape.area;
-    if (!(slenderness >= kFinger * options_.slenderness) || 2 * kPi * depth < kDeep * shape.mouth) return;
-    part.notes.slenderest = {slenderness, std::nextafter(level, distance_[part.top])};  // without the saddle
+  // Where the shape is narrower than the usual smallest feature, what is small is as much smaller.
+  double own_smallest(double half_width) const {
+    return options_.smallest * std::min(1.0, half_width / LimbOptions().smallest);
   }
-
-  // Where the slices are narrower than the usual smallest feature, what is small is as much smaller.
   double smallest_feature(Index v) const {
-    const double usual = LimbOptions().smallest;
-    return slices_.valid[v] ? options_.smallest * std::min(1.0, slices_.half_width[v] / usual)
-                            : options_.smallest;
+    return slices_.valid[v] ? own_smallest(slices_.half_width[v]) : options_.smallest;
   }
 
-  // Whether the part holds a limb.
+  // Whether the part holds a limb. The bow of a handle may hold one that ends before the handle begins; its
+  // bend is none.
   bool finish(const Part& part) {
     const Notes& notes = part.notes;
-    if (notes.slenderest.slenderness == 0) return notes.own > 0;
-    std::optional<FoundLimb> found = measure(part.top, notes.slenderest.distance, notes.own);
-    // The bow of a handle may hold a limb that ends before the handle begins; its bend is none, and blunt.
-    if (!found && notes.slenderest_disc.slenderness > 0) {
-      found = measure(part.top, notes.slenderest_disc.distance, notes.own);
-      if (found && is_blunt(found->tip.measures.depth_over_mouth)) found.reset();
-    }
-    if (!found) return notes.own > 0;
+    return add_limb(part.top, notes.slenderest, notes.own) ||
+           add_limb(part.top, notes.slenderest_disc, notes.own, true) || notes.own > 0;
+  }
+
+  // Whether the part beyond a level is a limb or an ear, which is noted then.
+  bool add_limb(Index top, const Level& level, double own, bool may_bend = false) {
+    if (level.slenderness == 0) return false;
+    std::optional<FoundLimb> found = measure(top, level.distance, own);
+    if (!found || (may_bend && is_bend(found->tip.measures))) return false;
     if (!is_limb(found->tip.measures, options_)) {
-      if (!is_ear(found->tip.measures, options_)) return notes.own > 0;
+      if (!is_ear(found->tip.measures, options_)) return false;
       found->tip.kind = TipKind::kEar;
     }
     limbs_.push_back(std::move(*found));
@@ -163,27 +166,27 @@ class LimbTipSearch {
     tip.vertex = top;
     LimbMeasures& m = tip.measures;
     m.depth = distance_[top] - level;
-    std::vector<double> widths;
-    double whole = 0, sliced = 0, perimeter = 0;
+    double sliced = 0, perimeter = 0;
     PartShapeSum sum(surface_, distance_, level);
     for (const Index v : part) {
-      whole += surface_.vertex_area[v];
       sum.add_vertex(v);
       if (!slices_.valid[v]) continue;
       sliced += surface_.vertex_area[v];
       perimeter += surface_.vertex_area[v] * slices_.perimeter[v];
-      widths.push_back(slices_.half_width[v]);
     }
-    if (!(whole > 0 && perimeter > 0)) return std::nullopt;
-    m.half_width = value_at_rank(std::move(widths), 0.5);
+    if (!(perimeter > 0)) return std::nullopt;
     m.half_chord = median_half_chord(part);
-    m.slenderness = 2 * kPi * m.depth * m.depth / whole;
     const PartShape shape = sum.shape(distance_[top]);
+    m.half_width = shape.area / (2 * kPi * m.depth);
+    m.slenderness = 2 * kPi * m.depth * m.depth / shape.area;
     m.mean_depth = shape.mean_depth / m.depth;
     m.depth_over_mouth = 2 * kPi * m.depth / shape.mouth;
-    const std::vector<Index> carrier = surface_beside(round, found.root, 2 * m.half_width);
-    m.carrier_half_chord = median_half_chord(carrier);
+    const double reach = std::max(2 * m.half_width, options_.smallest);
+    const std::vector<Index> carrier = surface_beside(round, found.root, reach);
+    m.carrier_half_chord = mean_half_chord(carrier);
     m.msp_ratio = std::max(1.0, mean_perimeter(carrier) * sliced / perimeter);
+    // A spike that noise or a slit leaves on something thick is no twig, however thin it is.
+    if (!(m.depth > kLeastTipDepth * own_smallest(m.carrier_half_chord))) return std::nullopt;
     if (!set_end(tip, own)) return std::nullopt;
     return found;
   }
@@ -193,7 +196,7 @@ class LimbTipSearch {
     const LimbMeasures& m = tip.measures;
     const double end = std::min(0.5 * m.depth, kEnd * m.half_width);
     tip.cap = beyond(tip.vertex,
-                     std::max(own, distance_[tip.vertex] - std::min(0.5 * m.depth, 1.5 * m.half_width)));
+                     std::max(own, distance_[tip.vertex] - std::min(0.5 * m.depth, kTipCap * m.half_width)));
     double area = 0;
     for (const Index v : tip.cap) {
       if (distance_[tip.vertex] - distance_[v] > end) continue;
@@ -286,6 +289,18 @@ class LimbTipSearch {
     for (std::size_t i = 0; i < vertices.size(); i += 1 + vertices.size() / kChords)
       chords.push_back(half_chord(surface_, solid_, vertices[i]));
     return value_at_rank(std::move(chords), 0.5);
+  }
+
+  double mean_half_chord(const std::vector<Index>& vertices) const {
+    constexpr std::size_t kChords = 64;
+    double sum = 0, area = 0;
+    for (std::size_t i = 0; i < vertices.size(); i += 1 + vertices.size() / kChords) {
+      const double c = half_chord(surface_, solid_, vertices[i]);
+      if (!(c > 0)) continue;
+      sum += surface_.vertex_area[vertices[i]] * std::log(c);
+      area += surface_.vertex_area[vertices[i]];
+    }
+    return area > 0 ? std::exp(sum / area) : 0.0;
   }
 
   double mean_perimeter(const std::vector<Index>& vertices) const {

@@ -88,8 +88,15 @@ class LimbCompletion {
     std::sort(bare.begin(), bare.end());
     Index added = 0;
     for (const auto& [depth, i] : bare)
-      if (outside_[tips_[i].vertex] > -0.5 * depth && reach_tip(tips_[i])) ++added;
+      if (outside_[tips_[i].vertex] > uncovered(tips_[i]) && reach_tip(tips_[i])) ++added;
     return added;
+  }
+
+  // How far the balls stay away from the tip of a limb that has no arc of its own: another one may have led
+  // through most of it.
+  static double uncovered(const LimbTip& tip) {
+    const LimbMeasures& m = tip.measures;
+    return tip.kind == TipKind::kBodyEnd ? 0.5 * m.depth : std::min(0.5 * m.depth, m.half_width);
   }
 
   // The end of a body lies in its middle, so the way to it is straight or none.
@@ -113,7 +120,7 @@ class LimbCompletion {
     const PartLevel& own = part.slenderest;
     const bool is_corner = is_blunt_when_flat(own.depth_over_mouth(), own.slenderness()) &&
                            is_wider_than_carrier(own.depth / own.slenderness(), carrier_[part.top]);
-    if (own.slenderness() >= uncovered_slenderness(options_) && !is_corner) return own;
+    if (own.depth > 0 && own.slenderness() >= uncovered_slenderness(options_) && !is_corner) return own;
     const PartLevel& level = part.narrowest;
     if (level.depth > 0 && is_bump(level, 2 * kPi * carrier_[part.top], options_)) return level;
     return std::nullopt;
@@ -127,7 +134,7 @@ class LimbCompletion {
     // On something thin a twig is told by its own scale, which is that of what carries it.
     const double least = std::max(kLeastProtrusion * options_.smallest, step_);
     const double usual = kLeastProtrusion * LimbOptions().smallest;
-    const auto least_depth = [&](Index v) { return least * std::min(1.0, carrier_[v] / usual); };
+    const auto least_depth = [&](Index v) { return least * std::min(1.0, 2 * carrier_[v] / usual); };
     std::vector<LimbTip> limbs;
     for (const SlenderPart& part : slender_parts(surface_, outside_, std::move(beyond), least_depth))
       if (const std::optional<PartLevel> level = limb_level(part)) limbs.push_back(new_tip(part.top, *level));
@@ -146,7 +153,7 @@ class LimbCompletion {
     tip.measures.slenderness = level.slenderness();
     const double radius = level.depth / level.slenderness();
     tip.measures.half_width = radius;
-    const double cap = std::min(0.5 * level.depth, 1.5 * radius), end = std::min(cap, kEnd * radius);
+    const double cap = std::min(0.5 * level.depth, kTipCap * radius), end = std::min(cap, kEnd * radius);
     double area = 0;
     std::vector<std::uint8_t> seen(surface_.position.size(), 0);
     tip.cap.assign(1, top);
