@@ -13,6 +13,7 @@
 #include "mspskel/limbs/detail/part_level.h"
 #include "mspskel/limbs/detail/part_shape.h"
 #include "mspskel/mesh/coarsen_surface.h"
+#include "mspskel/mesh/subdivide_surface.h"
 #include "support/solids.h"
 #include "topology/voxel_solids.h"
 
@@ -139,23 +140,46 @@ TEST_CASE("The corners of bodies that carry limbs are no limbs") {
     double ratio;
     Section section;
     std::size_t limbs;
+    bool sparse = false;
   };
   // A cube with rods, the top of a table beyond the legs, the corners of a frame of bars.
-  const std::vector<Body> bodies{{"cube-rods", 1, 0, Section::kSquare, 1},
-                                 {"cube-rods", 3, 0, Section::kRound, 3},
-                                 {"table", 4, 0.7, Section::kSquare, 4},
-                                 {"lattice", 3, 0, Section::kSquare, 0}};
+  const std::vector<Body> bodies{
+      {"cube-rods", 1, 0, Section::kSquare, 1}, {"cube-rods", 3, 0, Section::kRound, 3},
+      {"table", 4, 0.7, Section::kSquare, 4},   {"table", 5, 1, Section::kSquare, 5, true},
+      {"cube-rods", 2, 0, Section::kRound, 2},  {"heptoroid", kNone, 0, Section::kOwn, 0, true},
+      {"lattice", 3, 0, Section::kRound, 0},    {"lattice", 3, 0, Section::kSquare, 0}};
   for (const Body& body : bodies) {
     SampleOptions options;
     options.count = body.count;
     options.ratio = body.ratio;
     options.section = body.section;
+    options.sparse = body.sparse;
     INFO(body.name << " " << body.count);
-    const std::vector<LimbTip> tips = tips_of(Solid(to_mesh(make_sample(body.name, options))));
+    SurfaceSnapshot surface = make_snapshot(to_mesh(make_sample(body.name, options)));
+    if (body.sparse) surface = subdivide_surface(surface).surface;
+    const std::vector<LimbTip> tips = tips_of(Solid(std::move(surface)));
     const auto limbs = std::count_if(tips.begin(), tips.end(), [](const LimbTip& tip) {
       return tip.kind == TipKind::kLimb || tip.kind == TipKind::kEar;
     });
     CHECK(static_cast<std::size_t>(limbs) == body.limbs);
+  }
+}
+
+TEST_CASE("The corner of a slab is one at any depth; legs, fingers and long planks are none") {
+  for (const double thickness : {0.0, 0.1, 1.0, 10.0}) {
+    // Beyond a straight level, at depth 1.
+    const auto is_corner_of = [&](double area, double mouth, double thick) {
+      return is_slab_corner(1, 2 * kPi / mouth, 2 * kPi / area, thick, 1.1);
+    };
+    CHECK(is_corner_of(2 + 2 * std::sqrt(2.0) * thickness, 4 + 2 * thickness, thickness));
+    const double sharp = std::tan(kPi / 6);  // a corner of 60 degrees
+    CHECK_FALSE(
+        is_corner_of(2 * sharp + 2 * thickness / std::cos(kPi / 6), 4 * sharp + 2 * thickness, thickness));
+    for (const double width : {0.2, 0.5, 1.0}) {
+      const double plank = std::min(thickness, width);
+      CHECK_FALSE(is_corner_of(2 * (width + plank), 2 * (width + plank), plank));
+    }
+    if (thickness < 0.5) CHECK(is_corner_of(2 * (2.5 + thickness), 2 * (2.5 + thickness), thickness));
   }
 }
 
@@ -317,7 +341,7 @@ TEST_CASE("Small ears count on a body with limbs, and no bump of a body without"
 
   LimbMeasures bump;
   bump.depth = 0.7;
-  bump.half_width = bump.carrier_half_chord = 1;
+  bump.half_width = bump.half_chord = bump.half_thickness = bump.carrier_half_chord = 1;
   bump.slenderness = 0.7;
   bump.msp_ratio = 4;
   CHECK(is_ear(bump, {}));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/samples/skin_graph.h"
@@ -14,7 +15,8 @@ namespace mspskel::test {
 struct Solid {
   SurfaceSnapshot surface;
   BoundingVolumeHierarchy hierarchy;
-  explicit Solid(const DefaultMesh& mesh) : surface(make_snapshot(mesh)), hierarchy(surface) {}
+  explicit Solid(SurfaceSnapshot given) : surface(std::move(given)), hierarchy(surface) {}
+  explicit Solid(const DefaultMesh& mesh) : Solid(make_snapshot(mesh)) {}
 
   Vector3 at(const Vector3& x) const { return surface.frame.to_normalised(x); }
   Vector3 model(const Vector3& x) const { return surface.frame.to_model(x); }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mspskel/base/error.h"
+#include "mspskel/base/types.h"
 
 namespace mspskel {
 
@@ -37,7 +38,8 @@ struct LimbMeasures {
   double depth = 0.0;  // how far the limb's surface reaches beyond the rest
   // The radius of a tube of its area and depth. Its slices' own widths move with the few triangles of an end.
   double half_width = 0.0;
-  double half_chord = 0.0;  // half the chord inward from its surface, the median
+  double half_chord = 0.0;      // half the chord inward from its surface, the median
+  double half_thickness = 0.0;  // the lower quartile: chords from the edges of a slab are longer
   // The same of the surface beside its root, the mean of the logarithms: a median jumps where a thin part
   // and a thick one meet.
   double carrier_half_chord = 0.0;
@@ -54,36 +56,31 @@ struct LimbMeasures {
 // Whether a part is blunter than a right-angled cone. Spikes and fins are deep for their mouths.
 inline bool is_blunt(double depth_over_mouth) { return depth_over_mouth < 1.4142; }
 
-// Whether a part of a plate is no sharper than a right-angled corner, by both of its measures. The level of
-// such a corner is 2 depth wide on each side of the plate, which makes π / 2 of depth over mouth and π of
-// slenderness; and a tenth more, since arcs beside it bend the level. Where a twig leaves what the arcs
-// cover, its level may run along all of that and says nothing, but its area does.
-inline bool is_blunt_when_flat(double depth_over_mouth, double slenderness) {
-  constexpr double kRightAngle = 1.1 * 3.14159265358979323846;
-  return depth_over_mouth < 0.5 * kRightAngle && slenderness < kRightAngle;
+// Whether a part is no sharper than the right-angled corner of a slab, by both of its measures: beyond a
+// level across such a corner lie 2 depth² of area on the two sides and 2√2 depth · thickness on the edges,
+// and the level is 4 depth + 2 thickness long. A share more will do, as `slack` says, since arcs and other
+// limbs bend the level; where a twig leaves what the arcs cover, the level may run along all of that and says
+// nothing, but its area does. The blunt end of a plank is as a corner until it is half as deep as wide.
+inline bool is_slab_corner(double depth, double depth_over_mouth, double slenderness, double thickness,
+                           double slack) {
+  const double relative = thickness / depth;
+  return slenderness * (1 + 1.4142 * relative) < slack * kPi &&
+         depth_over_mouth * (2 + relative) < slack * kPi;
 }
 
-// A part that is wider than what carries it is thick, as the corners of plates and the rims of walls.
-inline bool is_wider_than_carrier(double half_width, double carrier) { return half_width > 1.35 * carrier; }
+// The bend of a bar, the bow of a handle, the corner where bars meet: hardly sharper than the corner of a
+// block, whose depth is 0.855 of its mouth's radius, and its slices are hardly smaller than those beside it.
+inline bool is_bend(const LimbMeasures& m) { return m.depth_over_mouth < 1.25 * 0.855 && m.msp_ratio < 1.4; }
 
-// A plate is as wide as half of the contour where it leaves the rest, and its surface faces itself across
-// less than an eighth of that.
-inline bool is_plate(const LimbMeasures& m) {
-  const double width = m.depth_over_mouth > 0 ? 3.14159265358979323846 * m.depth / m.depth_over_mouth : 0.0;
-  return 2 * m.half_chord < 0.125 * width;
-}
-
-// The bend of a bar: blunt, and its slices are no smaller than those beside it.
-inline bool is_bend(const LimbMeasures& m) { return is_blunt(m.depth_over_mouth) && m.msp_ratio < 1.25; }
-
-// The corner of a body: blunt, and widening in proportion to its depth or wider than its carrier. A limb is
-// about as wide at its root as before it. Where the whole body lies behind the surface, less of a taper will
-// do. The corner or the blunt end of a plate does not widen.
+// The corner of a body: a bend, the corner of a slab, or blunt, and widening in proportion to its depth or
+// wider than what carries it. A limb is about as wide at its root as before it. Where the whole body lies
+// behind the surface, less of a taper will do.
 inline bool is_corner(const LimbMeasures& m) {
-  if (is_plate(m) && is_blunt_when_flat(m.depth_over_mouth, m.slenderness)) return true;
-  const bool widens = m.mean_depth > (m.half_chord > 2.5 * m.half_width ? 0.61 : 0.655);
-  return is_blunt(m.depth_over_mouth) &&
-         (widens || is_wider_than_carrier(m.half_width, m.carrier_half_chord));
+  constexpr double kSlack = 1.1, kWider = 1.35;
+  if (is_bend(m)) return true;
+  if (is_slab_corner(m.depth, m.depth_over_mouth, m.slenderness, 2 * m.half_thickness, kSlack)) return true;
+  const bool widens = m.mean_depth > (m.half_chord > 2.25 * m.half_width ? 0.61 : 0.655);
+  return is_blunt(m.depth_over_mouth) && (widens || m.half_width > kWider * m.carrier_half_chord);
 }
 
 // A limb by its slenderness. Its surface faces itself: inward of the corner of a block is the whole block.

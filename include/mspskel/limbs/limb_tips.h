@@ -27,7 +27,7 @@ struct LimbTip {
   Vector3 target = Vector3::Zero();
   // Its depth: how far the vertex is beyond where the limb is most slender; of a body's end, from the middle.
   LimbMeasures measures;
-  std::vector<Index> cap;  // the end: the outer half of that depth, and at most 1.5 half widths
+  std::vector<Index> cap;  // the end: the outer half of that depth, and at most 1.2 half widths
 };
 
 // The limbs of each component. A limb is what lies beyond a maximum of the inner distance from the middle, as
@@ -38,8 +38,8 @@ struct LimbTip {
 // to be deeper than 1.5 smallest features (as much smaller as what carries it is thin) and 1.5 edges of the
 // surface (a twig of few triangles: as slender as a finger, and two radii of its mouth deep, where it meets
 // another part), be open at one place only (what goes round a handle is open at two; what of it ends before
-// may be a limb, unless it is a bend of the bar), and satisfy is_limb; in a component
-// that has limbs or whose body ends in tips, is_ear will do. None lies in the wall of a shell.
+// may be a limb), and satisfy is_limb; in a component that has limbs or whose body ends in tips, is_ear will
+// do. None lies in the wall of a shell.
 // A body that is longer than wide has tips where it ends and no limb does, and so has one with handles and
 // without limbs along the axis that stands apart. In a component of genus 0 without limbs the ends of its
 // longest way are tips.

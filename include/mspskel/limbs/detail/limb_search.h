@@ -138,14 +138,14 @@ class LimbTipSearch {
   bool finish(const Part& part) {
     const Notes& notes = part.notes;
     return add_limb(part.top, notes.slenderest, notes.own) ||
-           add_limb(part.top, notes.slenderest_disc, notes.own, true) || notes.own > 0;
+           add_limb(part.top, notes.slenderest_disc, notes.own) || notes.own > 0;
   }
 
   // Whether the part beyond a level is a limb or an ear, which is noted then.
-  bool add_limb(Index top, const Level& level, double own, bool may_bend = false) {
+  bool add_limb(Index top, const Level& level, double own) {
     if (level.slenderness == 0) return false;
     std::optional<FoundLimb> found = measure(top, level.distance, own);
-    if (!found || (may_bend && is_bend(found->tip.measures))) return false;
+    if (!found) return false;
     if (!is_limb(found->tip.measures, options_)) {
       if (!is_ear(found->tip.measures, options_)) return false;
       found->tip.kind = TipKind::kEar;
@@ -175,7 +175,9 @@ class LimbTipSearch {
       perimeter += surface_.vertex_area[v] * slices_.perimeter[v];
     }
     if (!(perimeter > 0)) return std::nullopt;
-    m.half_chord = median_half_chord(part);
+    const std::vector<double> chords = half_chords(part);
+    m.half_chord = value_at_rank(chords, 0.5);
+    m.half_thickness = value_at_rank(chords, 0.25);
     const PartShape shape = sum.shape(distance_[top]);
     m.half_width = shape.area / (2 * kPi * m.depth);
     m.slenderness = 2 * kPi * m.depth * m.depth / shape.area;
@@ -283,12 +285,12 @@ class LimbTipSearch {
     return round;
   }
 
-  double median_half_chord(const std::vector<Index>& vertices) const {
+  std::vector<double> half_chords(const std::vector<Index>& vertices) const {
     constexpr std::size_t kChords = 64;
     std::vector<double> chords;
     for (std::size_t i = 0; i < vertices.size(); i += 1 + vertices.size() / kChords)
       chords.push_back(half_chord(surface_, solid_, vertices[i]));
-    return value_at_rank(std::move(chords), 0.5);
+    return chords;
   }
 
   double mean_half_chord(const std::vector<Index>& vertices) const {

@@ -117,10 +117,11 @@ class LimbCompletion {
   // The level at which a part is a limb: slender by itself and no corner, or a bump that is no wider than
   // what carries it.
   std::optional<PartLevel> limb_level(const SlenderPart& part) const {
+    constexpr double kSlack = 1.2;  // levels bend round the balls of arcs
     const PartLevel& own = part.slenderest;
-    const bool is_corner = is_blunt_when_flat(own.depth_over_mouth(), own.slenderness()) &&
-                           is_wider_than_carrier(own.depth / own.slenderness(), carrier_[part.top]);
-    if (own.depth > 0 && own.slenderness() >= uncovered_slenderness(options_) && !is_corner) return own;
+    if (own.depth > 0 && own.slenderness() >= uncovered_slenderness(options_) &&
+        !is_slab_corner(own.depth, own.depth_over_mouth(), own.slenderness(), 2 * carrier_[part.top], kSlack))
+      return own;
     const PartLevel& level = part.narrowest;
     if (level.depth > 0 && is_bump(level, 2 * kPi * carrier_[part.top], options_)) return level;
     return std::nullopt;
