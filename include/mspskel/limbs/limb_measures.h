@@ -60,11 +60,12 @@ inline bool is_blunt(double depth_over_mouth) { return depth_over_mouth < 1.4142
 // level across such a corner lie 2 depth² of area on the two sides and 2√2 depth · thickness on the edges,
 // and the level is 4 depth + 2 thickness long. A share more will do, as `slack` says, since arcs and other
 // limbs bend the level; where a twig leaves what the arcs cover, the level may run along all of that and says
-// nothing, but its area does. The blunt end of a plank is as a corner until it is half as deep as wide.
+// nothing, but its area does. What is thicker than twice its depth is a
+// bump of a body. The blunt end of a plank is as a corner until it is half as deep as wide.
 inline bool is_slab_corner(double depth, double depth_over_mouth, double slenderness, double thickness,
                            double slack) {
   const double relative = thickness / depth;
-  return slenderness * (1 + 1.4142 * relative) < slack * kPi &&
+  return relative < 2 && slenderness * (1 + 1.4142 * relative) < slack * kPi &&
          depth_over_mouth * (2 + relative) < slack * kPi;
 }
 

@@ -9,6 +9,7 @@
 
 #include "mspskel/base/linkage.h"
 #include "mspskel/limbs/detail/growing_parts.h"
+#include "mspskel/limbs/detail/part_level.h"
 #include "mspskel/limbs/limb_tips.h"
 #include "mspskel/mesh/inner_distance.h"
 #include "mspskel/refine/detail/arc_leaves.h"
@@ -83,7 +84,7 @@ class DigitSearch {
   static constexpr double kElsewhere = -std::numeric_limits<double>::infinity();
 
   struct Notes {
-    double area = 0;
+    LevelSum sum;
     bool ended = false;     // has met a digit, or come to where the region ends
     LimbMeasures measures;  // where it was most slender before
   };
@@ -116,9 +117,12 @@ class DigitSearch {
     digits_.clear();
     GrowingParts<Notes> parts(surface_, distance_, region, place_);
     parts.grow(
-        [&](Part& high, Part& low, Index) {
+        [&](Part& high, Part& low, Index saddle) {
+          const double level = std::nextafter(distance_[saddle], distance_[high.top]);
+          judge(high, level, least);
+          judge(low, level, least);
           high.notes.ended = add_if_digit(low) || low.notes.ended || high.notes.ended;
-          high.notes.area += low.notes.area;
+          if (!high.notes.ended) high.notes.sum.add(low.notes.sum);
         },
         [&](Part& part, Index v) { join(part, v, least); });
     parts.for_each_left([&](Part& part) { add_if_digit(part); });
@@ -128,13 +132,21 @@ class DigitSearch {
 
   void join(Part& part, Index v, const LimbOptions& least) {
     Notes& notes = part.notes;
-    notes.area += surface_.vertex_area[v];
     for_each_neighbour(surface_, v,
                        [&](Index w) { notes.ended = notes.ended || distance_[w] == kElsewhere; });
-    if (notes.ended || !(notes.area > 0)) return;
+    if (notes.ended) return;
+    notes.sum.add(change_at(surface_, distance_, v));
+    judge(part, distance_[v], least);
+  }
+
+  void judge(Part& part, double at, const LimbOptions& least) const {
+    Notes& notes = part.notes;
+    if (notes.ended) return;
+    const PartLevel level = notes.sum.at(at, distance_[part.top]);
+    if (!(level.area > 1e-12 * level.depth)) return;
     LimbMeasures m;
-    m.depth = distance_[part.top] - distance_[v];
-    m.slenderness = 2 * kPi * m.depth * m.depth / notes.area;
+    m.depth = level.depth;
+    m.slenderness = level.slenderness();
     if (m.slenderness > notes.measures.slenderness && is_digit(m, least)) notes.measures = m;
   }
 
