@@ -63,13 +63,12 @@ class UnionBoundary {
     find_nodes();
     sample(execution);
     TetrahedronCutter cutter(*this, nodes_.size());
-    std::array<std::size_t, 8> corner_at{};  // as the cells' numbers ascend, so do those of each corner
+    std::array<std::int64_t, 8> offset{};
+    for (int k = 0; k < 8; ++k) offset[k] = offset_of(k);
+    std::array<Index, 8> corner{};  // as the cells' numbers ascend, so do those of each corner
     for (const std::int64_t key : cells_) {
-      std::array<Index, 8> corner{};
-      for (int k = 0; k < 8; ++k) {
-        while (nodes_[corner_at[k]] < key + offset_of(k)) ++corner_at[k];
-        corner[k] = static_cast<Index>(corner_at[k]);
-      }
+      for (int k = 0; k < 8; ++k)
+        while (nodes_[corner[k]] < key + offset[k]) ++corner[k];
       cutter.cut_cube(corner);
     }
     return cutter.take();
@@ -144,7 +143,8 @@ class UnionBoundary {
     std::vector<std::int64_t> next, both;
     for (const int axis : {1, 2, 4}) {
       next = nodes_;
-      for (std::int64_t& key : next) key += offset_of(axis);
+      const std::int64_t offset = offset_of(axis);
+      for (std::int64_t& key : next) key += offset;
       both.clear();
       std::set_union(nodes_.begin(), nodes_.end(), next.begin(), next.end(), std::back_inserter(both));
       nodes_.swap(both);
@@ -185,7 +185,7 @@ ShellGroup::ShellGroup(const SurfaceSnapshot& surface, const std::vector<Shell>&
     high_ = high_.cwiseMax(shells[m].high);
   }
   solids_.resize(members.size());
-  // The walls of all take as long as the solids together.
+  // The walls of all take as long as the solids together, so they are begun first.
   parallel_for(
       static_cast<Index>(members.size()) + 1, "union of shells", execution, [] { return 0; },
       [&](Index i, int&) {

@@ -10,7 +10,8 @@
 
 namespace mspskel::detail {
 
-// Shells that are to be one, with what is asked where they are. Refers to the surface.
+// Shells, one or more, that are to become one solid, and what tells where their solids and walls are. Refers
+// to the surface and the shells.
 class ShellGroup {
  public:
   ShellGroup(const SurfaceSnapshot& surface, const std::vector<Shell>& shells,

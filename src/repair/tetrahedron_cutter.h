@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <unordered_map>
+#include <utility>
 
 #include "mspskel/mesh/polygon_soup.h"
 
@@ -21,14 +23,11 @@ class TetrahedronCutter {
   // Bit k of a corner's number: the farther side along axis k. Six tetrahedra, one for each way along the
   // axes from the first corner to the last.
   void cut_cube(const std::array<Index, 8>& nodes) {
-    const auto inside =
-        std::count_if(nodes.begin(), nodes.end(), [&](Index n) { return field_.value(n) < 0; });
+    for (int k = 0; k < 8; ++k) value_[k] = field_.value(nodes[k]);
+    const auto inside = std::count_if(value_.begin(), value_.end(), [](double x) { return x < 0; });
     if (inside == 0 || inside == 8) return;
     node_ = nodes;
-    for (int k = 0; k < 8; ++k) {
-      value_[k] = field_.value(nodes[k]);
-      place_[k] = field_.place(nodes[k]);
-    }
+    for (int k = 0; k < 8; ++k) place_[k] = field_.place(nodes[k]);
     static constexpr int kWays[6][2] = {{1, 3}, {1, 5}, {2, 3}, {2, 6}, {4, 5}, {4, 6}};
     for (const auto& [first, second] : kWays) cut_tetrahedron({0, first, second, 7});
   }

@@ -1,9 +1,11 @@
 // Laws of the volume cocycles on solids whose topology is known by construction.
 #include "mspskel/collapse/volume_cocycles.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <numeric>
 
+#include "mspskel/collapse/detail/component_slabs.h"
 #include "mspskel/collapse/detail/homology_generators.h"
 #include "mspskel/collapse/label_rank.h"
 #include "support/meshes.h"
@@ -239,4 +241,39 @@ TEST_CASE("options out of range are named") {
   options.own_planes = -1;
   CHECK_THROWS_AS(compute_volume_cocycles(s, {}, options), UsageError);
   CHECK_THROWS_AS(compute_volume_cocycles(s, {{s.vertex_count(), Vector3::UnitX(), 1.0}}), UsageError);
+}
+
+TEST_CASE("A slab's faces are all found, and after many slabs few others are looked at") {
+  const SurfaceSnapshot s = snapshot_of(pierced_plate(12), 2);
+  const std::vector<detail::ComponentElements> components = detail::component_elements(s);
+  REQUIRE(components.size() == 1);
+  detail::ComponentSlabs slabs(s, components[0]);
+  mspskel::test::Random random(3);
+  std::size_t looked_at = 0, met = 0;
+  constexpr int kFirst = 100, kSlabs = 200;
+  for (int i = 0; i < kSlabs; ++i) {
+    const Vector3 normal = random.in_ball().normalized();
+    const double low = 0.2 * random.in_ball().x(), high = low + 0.002;
+    const detail::ComponentElements& near = slabs(normal, low, high);
+    CHECK(std::is_sorted(near.faces.begin(), near.faces.end()));
+    std::vector<bool> is_near(s.face_count(), false), has_corner(s.vertex_count(), false);
+    for (const Index f : near.faces) is_near[f] = true;
+    for (const Index v : near.vertices) has_corner[v] = true;
+    bool all = true;
+    for (Index f = 0; f < s.face_count(); ++f) {
+      double least = 1e9, most = -1e9;
+      for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+        const double height = normal.dot(s.position[s.origin[h]]);
+        least = std::min(least, height), most = std::max(most, height);
+        all = all && (!is_near[f] || has_corner[s.origin[h]]);
+      }
+      if (most < low || least > high) continue;
+      all = all && is_near[f];
+      met += i >= kFirst;
+    }
+    CHECK(all);
+    if (i >= kFirst) looked_at += near.faces.size();
+  }
+  CHECK(met > 5000);
+  CHECK(looked_at < 6 * met);
 }

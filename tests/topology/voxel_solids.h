@@ -144,19 +144,34 @@ inline VoxelSolid pierced_plate(int n) {
   return solid;
 }
 
-// Nodes and links of a cubic lattice with n nodes a side, each kept at random.
-inline std::set<Cell> random_lattice(int n, double share, Random& random) {
+// Nodes and links of a cubic lattice with so many nodes along each axis, each link kept at random.
+inline std::set<Cell> random_lattice(const Cell& nodes, double share, Random& random) {
   std::set<Cell> cells;
-  for (int i = 0; i < n * n * n; ++i) {
-    const Cell node{i % n * 2, i / n % n * 2, i / n / n * 2};
+  for (int i = 0; i < nodes[0] * nodes[1] * nodes[2]; ++i) {
+    const Cell node{i % nodes[0] * 2, i / nodes[0] % nodes[1] * 2, i / nodes[0] / nodes[1] * 2};
     for (std::size_t k = 0; k < 3; ++k) {
-      if (node[k] == 2 * (n - 1) || random.uniform() > share) continue;
+      if (node[k] == 2 * (nodes[k] - 1) || random.uniform() > share) continue;
       Cell link = node, other = node;
       ++link[k], other[k] += 2;
       cells.insert({node, link, other});
     }
   }
   return cells;
+}
+
+inline std::set<Cell> random_lattice(int n, double share, Random& random) {
+  return random_lattice({n, n, n}, share, random);
+}
+
+// A block with a lattice of tunnels, some of which are closed; those at its top and bottom are open. A cube
+// of n nodes a side has the fewer faces a handle the larger it is, a bar of a fixed section as many at any
+// length.
+inline VoxelSolid foam(const Cell& nodes) {
+  Random random(1);
+  VoxelSolid solid;
+  solid.box({-1, -1, 0}, {2 * nodes[0], 2 * nodes[1], 2 * nodes[2] - 1});
+  solid.remove(random_lattice(nodes, 0.8, random));
+  return solid;
 }
 
 // Császár's polyhedron: a torus where every two of its seven vertices are joined by an edge.

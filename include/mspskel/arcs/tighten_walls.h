@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mspskel/arcs/arc_graph.h"
+#include "mspskel/base/progress.h"
 #include "mspskel/collapse/crossing_labels.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/mesh/surface_snapshot.h"

@@ -24,7 +24,8 @@ inline void validate(const ZipOptions& o) {
 // moves there along one common stem. A leaf arc that never parts from its neighbour goes. Identifying two
 // paths with a common start keeps the homotopy type. Vertices of the arcs go to the stem where that is
 // nearer. Two arcs are zipped only as far as what lies between them goes round no handle. Returns the number
-// of zips. Cost: O(arcs² · points) distance queries a joint, first for all, then a zip for those beside it.
+// of zips. Cost: O(arcs² · points) distance queries a joint, then after each zip for the pairs whose arcs it
+// changed.
 // Throws UsageError, Cancelled.
 Index zip_arcs(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
                const ZipOptions& options, const CrossingLabels& crossings = {},

@@ -129,7 +129,8 @@ inline std::optional<Eigen::MatrixX3d> solve_large(const Eigen::SparseMatrix<dou
 
 // A matrix for three coordinates side by side: three rows for each row of `even`. Off the diagonal an entry
 // of `even` counts for each coordinate alike; on it stand the blocks, which couple the coordinates, in place
-// of even's entries. Written out it would hold three times the entries of `even` and nine for each block.
+// of even's entries: `even` has an entry, be it 0, at each place of its diagonal, and as many blocks belong
+// to it. Written out it would hold three times the entries of `even` and nine for each block.
 struct CoupledMatrix {
   Eigen::SparseMatrix<double> even;
   std::vector<Eigen::Matrix3d> diagonal;
@@ -152,7 +153,7 @@ struct CoupledMatrix {
 
 namespace detail {
 
-// Adds matrix · x to vectors, row by row.
+// Adds matrix · x to vectors, row by row. Refers to the matrix's blocks.
 class CoupledProduct {
  public:
   explicit CoupledProduct(const CoupledMatrix& matrix) : rows_(matrix.even), diagonal_(matrix.diagonal) {}
@@ -191,6 +192,7 @@ template <class Factors>
 std::optional<Eigen::VectorXd> solve_coupled_by_steps(const CoupledMatrix& matrix,
                                                       const Eigen::VectorXd& right,
                                                       const Eigen::VectorXd& guess, const Factors& factors) {
+  // Enough for rounds that begin where the one before ended.
   constexpr double kTolerance = 1e-5, kEpsilon = std::numeric_limits<double>::epsilon();
   constexpr int kMostSteps = 200;
   if (factors.info() != Eigen::Success) return std::nullopt;

@@ -18,8 +18,8 @@ namespace mspskel {
 class LabelRank {
  public:
   // Adds the label to the rows if it is independent of them, and says whether it was. Cost: the entries of
-  // the rows that it is reduced by; a label with an entry that no row has costs that entry alone where it
-  // comes last.
+  // the rows that it is reduced by; a label whose largest index is no row's pivot costs its own entries
+  // alone.
   bool insert(const CocycleLabel& label) {
     Row row = reduced(label);
     if (row.empty()) return false;

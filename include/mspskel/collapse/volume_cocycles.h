@@ -120,8 +120,8 @@ inline std::vector<SliceCandidate> slice_candidates(const VertexSlices& slices) 
 //
 // Postconditions: per face the labels add up to zero; the cocycles' values on loops are independent; each
 // vanishes on every loop that bounds in the solid (if the surface is embedded).
-// Cost: O(faces) for genus 0; else O(faces · log faces + sections · faces of the component).
-// Throws UsageError for options or candidates out of range, Cancelled.
+// Cost: O(faces) for genus 0; else O(faces · log faces), and for each section the faces and the pairs of
+// contours at its plane. Throws UsageError for options or candidates out of range, Cancelled.
 VolumeCocycles compute_volume_cocycles(const SurfaceSnapshot& surface,
                                        std::vector<SliceCandidate> candidates = {},
                                        const CocycleOptions& options = {},

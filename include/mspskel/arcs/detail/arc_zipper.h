@@ -126,7 +126,8 @@ class ArcZipper {
         closeness_(closeness),
         crossings_(crossings),
         radii_(graph, solid),
-        editor_(graph) {}
+        editor_(graph),
+        version_(graph.arcs.size(), 0) {}
 
   Index run(const Execution& execution) {
     Index zips = 0;
@@ -181,7 +182,6 @@ class ArcZipper {
   // An arc goes another way, or ends elsewhere.
   void changed(Index arc) {
     radii_.forget(arc);
-    if (version_.size() <= static_cast<std::size_t>(arc)) version_.resize(graph_.arcs.size(), 0);
     ++version_[arc];
     for (const Index hub : graph_.arcs[arc].hub) mark(hub);
   }
@@ -198,10 +198,6 @@ class ArcZipper {
     editor_.remove_leaf_arc(leaf, hub);
   }
 
-  Index version(Index arc) const {
-    return static_cast<std::size_t>(arc) < version_.size() ? version_[arc] : 0;
-  }
-
   void zip(Index joint, const Pair& pair) {
     const Vector3 position = pair.way.stem.back();
     const Index parting = editor_.add_hub(position);
@@ -216,6 +212,7 @@ class ArcZipper {
     stem.hub = {joint, parting};
     stem.points = pair.way.stem;
     const Index added = editor_.add_arc(std::move(stem));
+    version_.push_back(0);
     for (const Index arc : {pair.a, pair.b}) editor_.give_near_vertices(surface_, arc, added);
   }
 
@@ -254,7 +251,7 @@ class ArcZipper {
         while (next_known != known.end() &&
                std::make_pair(next_known->a, next_known->b) < std::make_pair(a, b))
           ++next_known;
-        joint.pairs.push_back({a, b, version(a), version(b), {}});
+        joint.pairs.push_back({a, b, version_[a], version_[b], {}});
         Pair& pair = joint.pairs.back();
         CommonWay& way = pair.way;
         const bool is_known = next_known != known.end() && next_known->a == a && next_known->b == b &&
@@ -288,7 +285,7 @@ class ArcZipper {
   ArcRadii radii_;
   ArcEditor editor_;
   Index compared_ = 0;
-  std::vector<Index> version_;               // per arc how often it has changed; 0 beyond the end
+  std::vector<Index> version_;               // per arc how often it has changed
   std::vector<Joint> joints_;                // per hub
   std::vector<Index> stale_;                 // joints to search
   std::set<Index> leaves_;                   // joints that have one to drop

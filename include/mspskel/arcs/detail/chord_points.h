@@ -55,7 +55,7 @@ class ChordPoints {
 
   // Whether that step has its ends below the surface and stays inside.
   bool stays_below(Index h) {
-    const Point a = (*this)(surface_.origin[h], kShallow), b = (*this)(surface_.target(h), kShallow);
+    const Point &a = (*this)(surface_.origin[h], kShallow), &b = (*this)(surface_.target(h), kShallow);
     return a.clearance > 0 && b.clearance > 0 && !solid_.segment_crosses(a.x, b.x);
   }
 
@@ -106,7 +106,7 @@ class ChordPoints {
   const SurfaceSnapshot& surface_;
   const BoundingVolumeHierarchy& solid_;
   const CrossingLabels& crossings_;
-  std::unordered_map<Index, Below> below_;  // stays where it is while others come in
+  std::unordered_map<Index, Below> below_;  // each stays where it is while others come in
 };
 
 }  // namespace detail

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "mspskel/arcs/detail/hub_components.h"
 #include "mspskel/arcs/detail/in_tubes.h"
@@ -10,13 +13,14 @@
 #include "mspskel/arcs/detail/tight_line.h"
 #include "mspskel/arcs/detail/vessel_trees.h"
 #include "mspskel/base/linkage.h"
+#include "mspskel/base/progress.h"
 #include "mspskel/solid/detail/axis_stretch.h"
 #include "mspskel/solid/detail/inner_graph.h"
 
 namespace mspskel {
 namespace detail {
 
-// The arcs of shells.
+// Draws the arcs of shells tight, all at once: threads take the stretches of all arcs.
 class WallArcs {
  public:
   WallArcs(ArcGraph& graph, InnerGraph& inner, const std::vector<bool>& shells, double step,
@@ -62,16 +66,18 @@ class WallArcs {
     std::size_t point;
   };
 
-  // A stretch of an arc between two tubes or ends, with the ways that it may take; or a step in a tube.
+  // A stretch of an arc between two tubes or ends of the arc, with the ways that it may take; or a step in a
+  // tube, which stays as it is.
   struct Part {
     Index arc;
     std::size_t first, last;                 // points of the arc
-    bool begins_tube, ends_tube;             // whether a tube opens into the wall there
+    bool follows_tube, meets_tube;           // at the first point, at the last
     std::vector<std::vector<Vector3>> ways;  // none in a tube
   };
 
-  // Heat flow stops at the nearest of the ways that no small move makes shorter: round the wall, say, where
-  // down is nearer. So the shortest way in the middle of the wall is tried as well.
+  // Divides an arc into its parts. Heat flow stops at the nearest of the ways that no small move makes
+  // shorter: round the wall, say, where down is nearer. So the shortest way in the middle of the wall is
+  // tried as well.
   void divide(Index arc) {
     const std::vector<Vector3>& points = graph_.arcs[arc].points;
     const std::vector<std::uint8_t> tube = in_tubes(points, solid_);
@@ -91,7 +97,7 @@ class WallArcs {
     }
   }
 
-  // Draws all ways tight, and gives the arcs the shorter ones.
+  // Draws the ways of all parts tight, and gives each arc its parts' shorter ones.
   void tighten() {
     std::vector<std::vector<Vector3>*> ways;
     for (Part& part : parts_)
@@ -107,6 +113,7 @@ class WallArcs {
       points = std::move(tight);
     }
   }
+  // Adds what comes of a part behind the points of those before it, and notes where tubes open into the wall.
   void append(const Part& part, std::vector<Vector3>& tight) {
     const Arc& arc = graph_.arcs[part.arc];
     if (part.ways.empty()) {
@@ -117,8 +124,8 @@ class WallArcs {
     const bool other = part.ways.size() > 1 && length_of(part.ways[1]) + step_ < length_of(part.ways[0]);
     const std::vector<Vector3>& way = part.ways[other ? 1 : 0];
     std::vector<TubeEnd>& ends = ends_[component_[arc.hub[0]]];
-    if (part.begins_tube) ends.push_back({part.arc, tight.size() - 1});
-    if (part.ends_tube) ends.push_back({part.arc, tight.size() + way.size() - 2});
+    if (part.follows_tube) ends.push_back({part.arc, tight.size() - 1});
+    if (part.meets_tube) ends.push_back({part.arc, tight.size() + way.size() - 2});
     tight.insert(tight.end(), way.begin() + 1, way.end());
   }
 
@@ -161,7 +168,7 @@ class WallArcs {
   const double step_;
   const Execution& execution_;
   const std::vector<Index> component_;      // of each hub
-  std::vector<Part> parts_;                 // of the arcs that are drawn, in order
+  std::vector<Part> parts_;                 // of the arcs that are drawn, one after the other
   std::vector<std::vector<TubeEnd>> ends_;  // where tubes open into walls, per component
   std::vector<bool> has_leaf_;              // per component
 };

@@ -61,7 +61,7 @@ Contour walk_contour(const SurfaceSnapshot& surface, Index start, const Side& si
 
 // A plane beside vertex v (within `window` below it) that keeps away from all vertices, so that contours that
 // would touch come apart: the middle of the widest gap between heights. None if the vertices leave no gap
-// that arithmetic could tell.
+// that arithmetic could tell. `vertices`: all that lie within the window, and any others.
 inline std::optional<Plane> generic_plane(const SurfaceSnapshot& surface, const std::vector<Index>& vertices,
                                           Index v, const Vector3& normal, double window) {
   constexpr double kSmallestGap = 1e-11;  // a hundred thousand roundings of a coordinate in the unit frame
@@ -115,7 +115,8 @@ inline bool inside_region(const FlatRegion& region, const Plane& plane, const Ve
 
 namespace regions {
 
-// All contours of the plane with the component. `positive`: room for a flag a vertex of the surface.
+// All contours of the plane with a component, of which `component` has every face that the plane meets, in
+// ascending order, and its corners. `positive`: room for a flag a vertex of the surface.
 inline std::vector<Contour> all_contours(const SurfaceSnapshot& surface, const ComponentElements& component,
                                          const Plane& plane, std::vector<std::uint8_t>& positive) {
   const PlaneSide side{surface, plane};
@@ -167,8 +168,8 @@ inline std::vector<Index> nesting(const std::vector<Contour>& contours, const Pl
 
 // The flat regions of the plane in the solid that this component bounds, by increasing perimeter. `outward`
 // is −1 if the component's faces are turned inward. Empty where outer contours and holes do not alternate as
-// they do on a surface without self-intersections. `positive`: room for a flag a vertex of the surface.
-// Cost: O(faces + contours²).
+// they do on a surface without self-intersections. `component` and `positive` are as for all_contours.
+// Cost: O(faces + contours²), of the faces given.
 inline std::vector<FlatRegion> flat_regions(const SurfaceSnapshot& surface,
                                             const ComponentElements& component, int outward,
                                             const Plane& plane, std::vector<std::uint8_t>& positive) {

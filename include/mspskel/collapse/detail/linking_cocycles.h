@@ -229,28 +229,49 @@ class LinkingPeriods {
   }
 
  private:
+  // A dual loop's step from face to face across a half-edge: what it crosses, in Seen::crossings.
+  struct Step {
+    Index first = kNone;  // kNone: not looked at
+    Index count = 0;
+    bool clear = true;  // false: rounding hides whether it crosses something
+  };
+  struct Crossing {
+    Index segment;
+    CrossingCount count;
+  };
   struct Seen {
     View view;
     LoopBundle bundle;
+    std::vector<Step> step;  // per half-edge; dual loops share most of their steps
+    std::vector<Crossing> crossings;
     Seen(const SurfaceSnapshot& surface, const HomologyGenerators& generators, int attempt)
-        : view(view_direction(attempt)), bundle(surface, generators.loop, view) {}
+        : view(view_direction(attempt)),
+          bundle(surface, generators.loop, view),
+          step(surface.origin.size()) {}
   };
 
-  // Adds the crossings of a piece of dual loop, within face f, with all loops.
-  void add(Seen& seen, Index f, const Vector3& from, const Vector3& to, bool& clear) {
+  const Step& step_across(Seen& seen, Index h) {
+    Step& step = seen.step[h];
+    if (step.first != kNone) return step;
+    step.first = static_cast<Index>(seen.crossings.size());
+    const Index f = SurfaceSnapshot::face(h), next = SurfaceSnapshot::face(surface_.twin[h]);
+    const Vector3 middle = linking::midpoint(surface_, h);
+    add(seen, f, linking::centroid(surface_, f), middle, step);
+    add(seen, next, middle, linking::centroid(surface_, next), step);
+    step.count = static_cast<Index>(seen.crossings.size()) - step.first;
+    return step;
+  }
+
+  // Adds the crossings of a piece of the step, within face f, with all loops.
+  void add(Seen& seen, Index f, const Vector3& from, const Vector3& to, Step& step) {
     const Vector3 p = seen.view(from), q = seen.view(to);
     seen.bundle.near(p, q, [&](Index s) {
       const LoopBundle::Segment& segment = seen.bundle.segments()[s];
       const Index other = SurfaceSnapshot::face(surface_.twin[segment.halfedge]);
       if (SurfaceSnapshot::face(segment.halfedge) == f || other == f) return;  // same triangle: never cross
       CrossingCount one;
-      clear = clear && count_crossing(p, q, segment.a, segment.b, one);
-      if (one.above == 0 && one.below == 0) return;
-      for (const LoopBundle::Use& use : segment.uses) {
-        crossed_.push_back(use.loop);
-        count_[use.loop].above += use.times * one.above;
-        count_[use.loop].below += use.times * one.below;
-      }
+      step.clear = step.clear && count_crossing(p, q, segment.a, segment.b, one);
+      if (one.above != 0 || one.below != 0) seen.crossings.push_back({s, one});
     });
   }
 
@@ -259,9 +280,16 @@ class LinkingPeriods {
     bool clear = true;
     crossed_.assign(1, i);
     for (const Index h : generators_.dual_loop[i]) {
-      const Index f = SurfaceSnapshot::face(h), next = SurfaceSnapshot::face(surface_.twin[h]);
-      add(seen, f, linking::centroid(surface_, f), linking::midpoint(surface_, h), clear);
-      add(seen, next, linking::midpoint(surface_, h), linking::centroid(surface_, next), clear);
+      const Step& step = step_across(seen, h);
+      clear = clear && step.clear;
+      for (Index c = step.first; c < step.first + step.count; ++c) {
+        const Crossing& crossing = seen.crossings[c];
+        for (const LoopBundle::Use& use : seen.bundle.segments()[crossing.segment].uses) {
+          crossed_.push_back(use.loop);
+          count_[use.loop].above += use.times * crossing.count.above;
+          count_[use.loop].below += use.times * crossing.count.below;
+        }
+      }
     }
     clear = clear && linking::count_contact(surface_, seen.view, generators_.dual_loop[i].front(), outward_,
                                             count_[i]);

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "mspskel/base/linkage.h"
+#include "mspskel/collapse/detail/component_slabs.h"
 #include "mspskel/collapse/detail/flat_regions.h"
 #include "mspskel/collapse/detail/homology_generators.h"
 #include "mspskel/collapse/detail/linking_cocycles.h"
@@ -42,6 +44,7 @@ class CocycleSearch {
  private:
   struct Component {
     ComponentElements elements;
+    std::optional<ComponentSlabs> slabs;  // of the elements
     HomologyGenerators generators;
     int outward = 1;  // −1: its faces are turned inward
     Index genus = 0;
@@ -100,6 +103,7 @@ inline CocycleSearch::CocycleSearch(const SurfaceSnapshot& surface, const Cocycl
           surface.position[surface.origin[3 * f + 1]].cross(surface.position[surface.origin[3 * f + 2]]));
     component.outward = volume < 0 ? -1 : 1;
     component.elements = std::move(elements[c]);
+    component.slabs.emplace(surface, component.elements);
     component.generators = std::move(generators[c]);
     result_.genus.push_back(component.genus);
   }
@@ -178,7 +182,7 @@ inline bool CocycleSearch::keep_region(Component& component, const FlatRegion& r
   return true;
 }
 
-// Cuts the whole component beside the vertex, keeps the discs that are new and remembers the regions with
+// Cuts the component beside the vertex, keeps the discs that are new and remembers the regions with
 // holes.
 inline void CocycleSearch::try_plane(Component& component, Index vertex, const Vector3& normal) {
   constexpr double kWindow =
@@ -194,10 +198,11 @@ inline void CocycleSearch::try_plane(Component& component, Index vertex, const V
   --component.sections_left;
   ++result_.sections;
   report_progress(progress_, "cocycles", 0.2);
-  const auto plane = generic_plane(surface_, component.elements.vertices, vertex, normal, kWindow * longest);
+  const double height = normal.dot(surface_.position[vertex]), window = kWindow * longest;
+  const ComponentElements& near = (*component.slabs)(normal, height - window, height);
+  const auto plane = generic_plane(surface_, near.vertices, vertex, normal, window);
   if (!plane) return;
-  for (FlatRegion& region :
-       flat_regions(surface_, component.elements, component.outward, *plane, positive_)) {
+  for (FlatRegion& region : flat_regions(surface_, near, component.outward, *plane, positive_)) {
     if (!component.open()) return;
     if (region.is_disc() && options_.use_discs)
       keep_region(component, region, *plane);

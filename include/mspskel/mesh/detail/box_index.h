@@ -1,4 +1,4 @@
-// Numbered boxes, and which of them a box may meet.
+// Numbered boxes, and which of them a box or a slab may meet.
 #pragma once
 
 #include <algorithm>
@@ -37,14 +37,25 @@ class BoxIndex {
   template <class Visit>
   void in_box(const Vector3& low, const Vector3& high, Visit visit) const {
     if (slots_.empty()) return;
-    tree_.in_box(low, high, [&](Index first, Index count) {
-      for (Index slot = first; slot < first + count; ++slot)
-        if (slots_[slot] != kNone) visit(slots_[slot]);
-      return true;
-    });
+    tree_.in_box(low, high, [&](Index first, Index count) { return visit_leaf(first, count, visit); });
+  }
+
+  // The same for the boxes that low <= normal · x <= high may meet (unit normal).
+  template <class Visit>
+  void in_slab(const Vector3& normal, double low, double high, Visit visit) const {
+    if (slots_.empty()) return;
+    tree_.in_slab(normal, low, high,
+                  [&](Index first, Index count) { return visit_leaf(first, count, visit); });
   }
 
  private:
+  template <class Visit>
+  bool visit_leaf(Index first, Index count, Visit& visit) const {
+    for (Index slot = first; slot < first + count; ++slot)
+      if (slots_[slot] != kNone) visit(slots_[slot]);
+    return true;
+  }
+
   std::vector<PrimitiveBox> boxes_;  // until they are built
   double reach_ = 1.0;
   BoxTree tree_;

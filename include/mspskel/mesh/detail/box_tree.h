@@ -1,67 +1,33 @@
-// Boxes with four children each over numbered primitives, and the traversals: by distance from a point, along
-// a ray, through a box.
+// A tree of boxes over numbered primitives, and the traversals: by distance from a point, along a ray,
+// through a box, between two planes.
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
+#include <utility>
 #include <vector>
-#ifdef __SSE2__
-#include <emmintrin.h>
-#endif
 
-#include "mspskel/base/clones.h"
 #include "mspskel/base/progress.h"
 #include "mspskel/base/types.h"
+#include "mspskel/mesh/detail/box_node.h"
+#include "mspskel/mesh/detail/box_tree_builder.h"
 
 namespace mspskel {
 namespace detail {
 
-using Float3 = std::array<float, 3>;
-
-// Four numbers at once, for local use: stored as plain arrays, so that no public type has an alignment that
-// depends on compiler flags.
-using Lanes = float __attribute__((vector_size(16), may_alias));
-inline Lanes load(const float* four) { return *reinterpret_cast<const Lanes*>(four); }
-inline void store(const Lanes& lanes, float* four) { *reinterpret_cast<Lanes*>(four) = lanes; }
-inline Lanes all(float x) { return Lanes{x, x, x, x}; }
-inline Lanes smaller(const Lanes& a, const Lanes& b) { return a < b ? a : b; }
-inline Lanes larger(const Lanes& a, const Lanes& b) { return a > b ? a : b; }
-
-// Bit k is set where lane k of a is at most that of b.
-inline unsigned at_most(const Lanes& a, const Lanes& b) {
-#ifdef __SSE2__
-  return static_cast<unsigned>(_mm_movemask_ps(_mm_cmple_ps(a, b)));
-#else
-  unsigned mask = 0;
-  for (int k = 0; k < 4; ++k) mask |= static_cast<unsigned>(a[k] <= b[k]) << k;
-  return mask;
-#endif
-}
-
-// Both corners are read as four numbers, the last of which means nothing.
-struct alignas(16) PrimitiveBox {
-  float low[4], high[3];
-  Index primitive;
-};
-
-// Children side by side, so that one query tests four boxes at once. A lane without a child has an inverted
-// box.
-struct alignas(64) BoxNode {
-  float low[3][4], high[3][4];
-  Index child[4];  // a node, or the first slot of a leaf
-  Index count[4];  // 0: child is a node; else the number of slots in the leaf
-};
-
 class BoxTree {
  public:
-  static constexpr Index kLeafSize = 4;
+  static constexpr Index kLeafSize = kBoxLeafSize;
 
   // Reorders `boxes` and returns the primitive in each slot: leaf i has the slots 4i .. 4i + 3, the last ones
   // perhaps empty (kNone). `reach` bounds every coordinate's magnitude. Throws Cancelled.
   std::vector<Index> build(std::vector<PrimitiveBox>& boxes, double reach,
-                           const ProgressCallback& progress = {});
+                           const ProgressCallback& progress = {}) {
+    BoxTreeBuilder builder(boxes, reach, progress);
+    nodes_ = builder.take_nodes();
+    reach_ = reach;
+    return builder.take_slots();
+  }
 
   // Calls leaf(first, count) by growing distance from p as long as a box is nearer than `bound` (a squared
   // distance that the callback lowers).
@@ -84,174 +50,19 @@ class BoxTree {
   void in_box_on_plane(const Vector3& low, const Vector3& high, const Vector3& normal, double offset,
                        Leaf leaf) const;
 
+  // Calls leaf(first, count) for the leaves whose box meets the slab low <= normal · x <= high; stops when
+  // the callback returns false. The normal has length 1.
+  template <class Leaf>
+  void in_slab(const Vector3& normal, double low, double high, Leaf leaf) const;
+
  private:
   // Calls leaf(first, count) for the leaves below lanes whose bit is set in meets(node).
   template <class Meets, class Leaf>
   void where(Meets meets, Leaf leaf) const;
 
-  static constexpr Index kPolled = 1024;  // fewer primitives take well below a millisecond
-
-  struct Building {
-    std::vector<PrimitiveBox>& boxes;
-    const ProgressCallback& progress;
-    std::vector<Index> slots;
-  };
-  Index build_node(Building& building, Index begin, Index end, int depth);
-
   std::vector<BoxNode> nodes_;
   double reach_ = 0.0;
 };
-
-struct Bounds {
-  Lanes low = all(std::numeric_limits<float>::max());
-  Lanes high = all(std::numeric_limits<float>::lowest());
-
-  void add(const Lanes& lo, const Lanes& hi) {
-    low = smaller(low, lo);
-    high = larger(high, hi);
-  }
-  float half_area() const {
-    const Lanes size = high - low;
-    return size[0] < 0 ? 0.0f : size[0] * size[1] + size[1] * size[2] + size[2] * size[0];
-  }
-};
-
-inline Lanes low_of(const PrimitiveBox& b) { return load(b.low); }
-inline Lanes high_of(const PrimitiveBox& b) { return load(b.high); }
-
-// Where to cut [begin, end) in two, after reordering it: 16 bins along the longest axis of the centres.
-MSPSKEL_AVX_CLONES inline Index split(PrimitiveBox* boxes, Index begin, Index end, bool halve) {
-  constexpr int kBins = 16;
-  Bounds centres;
-  for (Index i = begin; i < end; ++i) {
-    const Lanes twice = low_of(boxes[i]) + high_of(boxes[i]);
-    centres.add(twice, twice);
-  }
-  int axis = 0;
-  for (int k = 1; k < 3; ++k)
-    if (centres.high[k] - centres.low[k] > centres.high[axis] - centres.low[axis]) axis = k;
-  const float extent = centres.high[axis] - centres.low[axis];
-  const Index middle = begin + (end - begin) / 2;
-  if (!(extent > 0)) return middle;
-  if (halve) {
-    std::nth_element(boxes + begin, boxes + middle, boxes + end,
-                     [&](const PrimitiveBox& a, const PrimitiveBox& b) {
-                       return a.low[axis] + a.high[axis] < b.low[axis] + b.high[axis];
-                     });
-    return middle;
-  }
-  const float scale = kBins * 0.9999f / extent;
-  const auto bin_of = [&](const PrimitiveBox& b) {
-    return static_cast<int>((b.low[axis] + b.high[axis] - centres.low[axis]) * scale);
-  };
-  std::array<Bounds, kBins> bin;
-  std::array<Index, kBins> count{};
-  for (Index i = begin; i < end; ++i) {
-    const int k = bin_of(boxes[i]);
-    bin[k].add(low_of(boxes[i]), high_of(boxes[i]));
-    ++count[k];
-  }
-  // cost[k]: of everything to the right of the cut after bin k; then swept from the left.
-  std::array<float, kBins> cost{};
-  Bounds sweep;
-  Index swept = 0;
-  for (int k = kBins - 1; k > 0; --k) {
-    sweep.add(bin[k].low, bin[k].high);
-    swept += count[k];
-    cost[k - 1] = sweep.half_area() * static_cast<float>(swept);
-  }
-  int best = -1;
-  sweep = Bounds();
-  swept = 0;
-  float best_cost = std::numeric_limits<float>::infinity();
-  for (int k = 0; k + 1 < kBins; ++k) {
-    sweep.add(bin[k].low, bin[k].high);
-    swept += count[k];
-    const float c = sweep.half_area() * static_cast<float>(swept) + cost[k];
-    if (swept > 0 && swept < end - begin && c < best_cost) {
-      best_cost = c;
-      best = k;
-    }
-  }
-  if (best < 0) return middle;
-  PrimitiveBox* const cut =
-      std::partition(boxes + begin, boxes + end, [&](const PrimitiveBox& b) { return bin_of(b) <= best; });
-  return static_cast<Index>(cut - boxes);
-}
-
-inline std::vector<Index> BoxTree::build(std::vector<PrimitiveBox>& boxes, double reach,
-                                         const ProgressCallback& progress) {
-  nodes_.clear();
-  nodes_.reserve(boxes.size() / 4 + 1);
-  reach_ = reach;
-  // Queries round their point to float as well: four units in the last place of the largest coordinate cover
-  // both.
-  const float pad = static_cast<float>(reach) * 0x1p-21f;
-  for (PrimitiveBox& b : boxes)
-    for (int k = 0; k < 3; ++k) {
-      b.low[k] -= pad;
-      b.high[k] += pad;
-    }
-  Building building{boxes, progress, {}};
-  building.slots.reserve(boxes.size() + boxes.size() / 2);
-  build_node(building, 0, static_cast<Index>(boxes.size()), 0);
-  return std::move(building.slots);
-}
-
-inline Index BoxTree::build_node(Building& building, Index begin, Index end, int depth) {
-  PrimitiveBox* const boxes = building.boxes.data();
-  std::vector<Index>& slots = building.slots;
-  if (end - begin > kPolled)
-    report_progress(building.progress, "hierarchy",
-                    static_cast<double>(begin) / static_cast<double>(building.boxes.size()));
-  struct Range {
-    Index begin, end;
-    Bounds bounds;
-  };
-  const auto make_range = [&](Index b, Index e) {
-    Range r{b, e, {}};
-    for (Index i = b; i < e; ++i) r.bounds.add(low_of(boxes[i]), high_of(boxes[i]));
-    return r;
-  };
-  std::array<Range, 4> range;
-  int ranges = 1;
-  range[0] = make_range(begin, end);
-  while (ranges < 4) {
-    int widest = -1;
-    for (int r = 0; r < ranges; ++r)
-      if (range[r].end - range[r].begin > kLeafSize &&
-          (widest < 0 || range[r].bounds.half_area() > range[widest].bounds.half_area()))
-        widest = r;
-    if (widest < 0) break;
-    // Halving below a depth that no sensible surface needs bounds the traversals' stacks.
-    const Index b = range[widest].begin, e = range[widest].end, cut = split(boxes, b, e, depth > 32);
-    range[widest] = make_range(b, cut);
-    range[ranges++] = make_range(cut, e);
-  }
-  const Index node = static_cast<Index>(nodes_.size());
-  nodes_.emplace_back();
-  for (int r = 0; r < 4; ++r) {
-    const Bounds bounds = r < ranges ? range[r].bounds : Bounds();
-    for (int k = 0; k < 3; ++k) {
-      nodes_[node].low[k][r] = bounds.low[k];
-      nodes_[node].high[k][r] = bounds.high[k];
-    }
-    nodes_[node].child[r] = nodes_[node].count[r] = 0;
-  }
-  for (int r = 0; r < ranges; ++r) {
-    const Index size = range[r].end - range[r].begin;
-    Index child = static_cast<Index>(slots.size());
-    if (size > kLeafSize) {
-      child = build_node(building, range[r].begin, range[r].end, depth + 1);
-    } else {
-      for (Index i = 0; i < kLeafSize; ++i)
-        slots.push_back(i < size ? boxes[range[r].begin + i].primitive : kNone);
-      nodes_[node].count[r] = size;
-    }
-    nodes_[node].child[r] = child;
-  }
-  return node;
-}
 
 // Children that wait to be visited, the nearest on top.
 class BoxStack {
@@ -369,6 +180,29 @@ class MeetsBox {
   float low_[3], high_[3];
 };
 
+// Which lanes of a node meet the slab low <= normal · x <= high. The heights of a box's lowest and highest
+// corner are sums of three products in single precision, where no coordinate is beyond `reach`.
+class MeetsSlab {
+ public:
+  MeetsSlab(const Vector3& normal, double low, double high, double reach)
+      : low_(static_cast<float>(low)),
+        high_(static_cast<float>(high)),
+        margin_(static_cast<float>(reach) * 0x1p-19f) {
+    for (int a = 0; a < 3; ++a) normal_[a] = static_cast<float>(normal[a]);
+  }
+  unsigned operator()(const BoxNode& node) const {
+    Lanes lowest = all(-margin_), highest = all(margin_);
+    for (int a = 0; a < 3; ++a) {
+      lowest += normal_[a] * load(normal_[a] < 0 ? node.high[a] : node.low[a]);
+      highest += normal_[a] * load(normal_[a] < 0 ? node.low[a] : node.high[a]);
+    }
+    return at_most(lowest, all(high_)) & at_most(all(low_), highest);
+  }
+
+ private:
+  float normal_[3], low_, high_, margin_;
+};
+
 template <class Meets, class Leaf>
 void BoxTree::where(Meets meets, Leaf leaf) const {
   BoxStack stack;
@@ -393,22 +227,18 @@ template <class Leaf>
 void BoxTree::in_box_on_plane(const Vector3& low, const Vector3& high, const Vector3& normal, double offset,
                               Leaf leaf) const {
   const MeetsBox meets_box(low, high);
-  float n[3];
-  for (int a = 0; a < 3; ++a) n[a] = static_cast<float>(normal[a]);
-  // The heights of a box's lowest and highest corner are sums of three products in single precision.
-  const float margin = static_cast<float>(reach_) * 0x1p-19f, at = static_cast<float>(offset);
+  const MeetsSlab meets_plane(normal, offset, offset, reach_);
   where(
       [&](const BoxNode& node) {
         const unsigned lanes = meets_box(node);
-        if (lanes == 0) return lanes;
-        Lanes lowest = all(-margin), highest = all(margin);
-        for (int a = 0; a < 3; ++a) {
-          lowest += n[a] * load(n[a] < 0 ? node.high[a] : node.low[a]);
-          highest += n[a] * load(n[a] < 0 ? node.low[a] : node.high[a]);
-        }
-        return lanes & at_most(lowest, all(at)) & at_most(all(at), highest);
+        return lanes == 0 ? lanes : lanes & meets_plane(node);
       },
       leaf);
+}
+
+template <class Leaf>
+void BoxTree::in_slab(const Vector3& normal, double low, double high, Leaf leaf) const {
+  where(MeetsSlab(normal, low, high, reach_), leaf);
 }
 
 }  // namespace detail

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "mspskel/mesh/detail/box_tree.h"
+#include "mspskel/mesh/detail/box_node.h"
 #include "mspskel/mesh/detail/triangle.h"
 
 namespace mspskel {

@@ -179,11 +179,21 @@ class InnerPaths {
     return clearance_[v];
   }
 
-  // Whether the way along an edge of the surface meets what bounds the solid. Searches come by the same edges
-  // time after time, so the solid is asked once.
+  // The half-edge between two neighbours. Cost: the fewer edges of the two.
+  Index edge_between(Index from, Index to) const {
+    Index out = surface_.vertex_halfedge[from], back = surface_.vertex_halfedge[to];
+    while (true) {
+      if (surface_.target(out) == to) return out;
+      if (surface_.target(back) == from) return surface_.twin[back];
+      out = surface_.next_outgoing(out);
+      back = surface_.next_outgoing(back);
+    }
+  }
+
+  // Whether the way along an edge, from one neighbour to the other, meets what bounds the solid. Searches
+  // come by the same edges time after time, so the solid is asked once.
   bool edge_crosses(Index from, Index to) {
-    Index h = surface_.vertex_halfedge[from];
-    while (surface_.target(h) != to) h = surface_.next_outgoing(h);
+    const Index h = edge_between(from, to);
     if (edge_[h] == EdgeState::kUnknown)
       edge_[h] = solid_.segment_crosses(point_[from], point_[to]) ? EdgeState::kCrosses : EdgeState::kInside;
     return edge_[h] == EdgeState::kCrosses;
