@@ -184,6 +184,24 @@ TEST_CASE("The corner of a slab is one at any depth; legs, fingers and long plan
   }
 }
 
+TEST_CASE("A blunt fin on something thicker is an ear; the same as a corner of a slab is none") {
+  LimbMeasures m;
+  m.depth = 1;
+  m.half_thickness = m.half_chord = 0.1;
+  m.half_width = 0.8;
+  m.carrier_half_chord = 1;
+  m.msp_ratio = 3;
+  m.slenderness = 2 * kPi / (2 + 2 * std::sqrt(2.0) * 0.2);
+  m.depth_over_mouth = 2 * kPi / 4.4;
+  m.mean_depth = 0.6;
+  m.carrier_half_thickness = 1;
+  CHECK_FALSE(is_corner(m));
+  CHECK(is_ear(m, {}));
+  m.carrier_half_thickness = 0.1;
+  CHECK(is_corner(m));
+  CHECK_FALSE(is_ear(m, {}));
+}
+
 TEST_CASE("The blunt ends of a plank beyond the legs that carry it are no limbs") {
   constexpr int kWidth = 16, kHeight = 20, kLeg = 2, kBetween = 24;
   for (const int end : {6, 8, 10}) {

@@ -1,7 +1,9 @@
 // Limbs without an arc get one, each once.
 #include "mspskel/refine/complete_limbs.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "mspskel/arcs/detail/arc_editor.h"
 #include "mspskel/limbs/limb_tips.h"
@@ -40,10 +42,10 @@ ImplicitSolid finned(const std::vector<double>& angles) {
 }
 
 // An arc along the x axis.
-ArcGraph straight_axis(const Solid& solid, double half_length) {
+ArcGraph straight_axis(const Solid& solid, double from, double to) {
   ArcGraph graph;
-  graph.add_hub(solid.at({-half_length, 0, 0}));
-  graph.add_hub(solid.at({half_length, 0, 0}));
+  graph.add_hub(solid.at({from, 0, 0}));
+  graph.add_hub(solid.at({to, 0, 0}));
   line(graph, 0, 1);
   map_to_nearest(graph, solid.surface.position);
   return graph;
@@ -193,7 +195,7 @@ TEST_CASE("No place is completed twice") {
 TEST_CASE("Fins on a plain body get an arc each, to their middle") {
   for (const std::vector<double>& angles : {std::vector<double>{0.7}, {0.0, 2.0, 4.0}}) {
     const Solid solid(to_mesh(polygonise(finned(angles), 5000, 0.12)));
-    ArcGraph graph = straight_axis(solid, 3);
+    ArcGraph graph = straight_axis(solid, -3, 3);
     std::vector<LimbTip> tips;
     const auto count = static_cast<Index>(angles.size());
     CHECK(complete_limbs(graph, solid.surface, solid.hierarchy, tips, {}, 0.01) == count);
@@ -213,6 +215,24 @@ TEST_CASE("Fins on a plain body get an arc each, to their middle") {
   }
 }
 
+TEST_CASE("The foot of a goblet has a rim, and no end beyond its middle") {
+  ImplicitSolid goblet;
+  goblet.low = Vector3(-0.6, -2.1, -2.1);
+  goblet.high = Vector3(13.6, 2.1, 2.1);
+  goblet.value = [](const Vector3& x) {
+    const double off_axis = std::hypot(x.y(), x.z()), beyond = x.x() - std::clamp(x.x(), 0.0, 13.0);
+    const double stem = std::hypot(beyond, off_axis) - 0.35;
+    const double foot = std::hypot(std::max(0.0, off_axis - 1.6), x.x()) - 0.15;
+    return std::min(stem, foot);
+  };
+  const Solid solid(to_mesh(polygonise(goblet, 5000, 0.15)));
+  for (const double end : {0.0, 0.2, 0.4}) {
+    ArcGraph graph = straight_axis(solid, end, 13);
+    std::vector<LimbTip> tips;
+    CHECK(complete_limbs(graph, solid.surface, solid.hierarchy, tips, {}, 0.01) == 0);
+  }
+}
+
 TEST_CASE("Corners and rims are no bumps") {
   for (const Vector3& half : {Vector3(1, 1, 1), Vector3(2, 1, 1), Vector3(3, 2, 0.2)}) {
     INFO(half.transpose());
@@ -221,7 +241,7 @@ TEST_CASE("Corners and rims are no bumps") {
     block.high = 1.1 * half;
     block.value = [&](const Vector3& x) { return (x.cwiseAbs() - half).maxCoeff(); };
     const Solid solid(to_mesh(polygonise(block, 2500, 0.2)));
-    ArcGraph graph = straight_axis(solid, 0.5 * half.x());
+    ArcGraph graph = straight_axis(solid, -0.5 * half.x(), 0.5 * half.x());
     std::vector<LimbTip> tips;
     CHECK(complete_limbs(graph, solid.surface, solid.hierarchy, tips, {}, 0.01) == 0);
   }

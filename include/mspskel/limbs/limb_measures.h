@@ -43,7 +43,8 @@ struct LimbMeasures {
   // The same of the surface beside its root, the mean of the logarithms: a median jumps where a thin part
   // and a thick one meet.
   double carrier_half_chord = 0.0;
-  double msp_ratio = 1.0;  // MSP of the part that it leaves / MSP of the limb, at least 1
+  double carrier_half_thickness = 0.0;  // their lower quartile
+  double msp_ratio = 1.0;               // MSP of the part that it leaves / MSP of the limb, at least 1
   // 2π depth² / area: length over radius of a tube, 2 / sin of the half angle of a cone. An area moves little
   // under noise and with the triangles, so this decides.
   double slenderness = 0.0;
@@ -60,8 +61,8 @@ inline bool is_blunt(double depth_over_mouth) { return depth_over_mouth < 1.4142
 // level across such a corner lie 2 depth² of area on the two sides and 2√2 depth · thickness on the edges,
 // and the level is 4 depth + 2 thickness long. A share more will do, as `slack` says, since arcs and other
 // limbs bend the level; where a twig leaves what the arcs cover, the level may run along all of that and says
-// nothing, but its area does. What is thicker than twice its depth is a
-// bump of a body. The blunt end of a plank is as a corner until it is half as deep as wide.
+// nothing, but its area does. What is thicker than twice its depth is a bump of a body. The blunt end of a
+// plank is as a corner until it is half as deep as wide.
 inline bool is_slab_corner(double depth, double depth_over_mouth, double slenderness, double thickness,
                            double slack) {
   const double relative = thickness / depth;
@@ -73,13 +74,15 @@ inline bool is_slab_corner(double depth, double depth_over_mouth, double slender
 // block, whose depth is 0.855 of its mouth's radius, and its slices are hardly smaller than those beside it.
 inline bool is_bend(const LimbMeasures& m) { return m.depth_over_mouth < 1.25 * 0.855 && m.msp_ratio < 1.4; }
 
-// The corner of a body: a bend, the corner of a slab, or blunt, and widening in proportion to its depth or
-// wider than what carries it. A limb is about as wide at its root as before it. Where the whole body lies
-// behind the surface, less of a taper will do.
+// The corner of a body: a bend, the corner of a slab (a fin leaves what is thicker), or blunt, and widening
+// in proportion to its depth or wider than what carries it. A limb is about as wide at its root as before it.
+// Where the whole body lies behind the surface, less of a taper will do.
 inline bool is_corner(const LimbMeasures& m) {
   constexpr double kSlack = 1.1, kWider = 1.35;
   if (is_bend(m)) return true;
-  if (is_slab_corner(m.depth, m.depth_over_mouth, m.slenderness, 2 * m.half_thickness, kSlack)) return true;
+  const bool of_slab = m.carrier_half_thickness < kWider * m.half_thickness;
+  if (of_slab && is_slab_corner(m.depth, m.depth_over_mouth, m.slenderness, 2 * m.half_thickness, kSlack))
+    return true;
   const bool widens = m.mean_depth > (m.half_chord > 2.25 * m.half_width ? 0.61 : 0.655);
   return is_blunt(m.depth_over_mouth) && (widens || m.half_width > kWider * m.carrier_half_chord);
 }

@@ -186,6 +186,7 @@ class LimbTipSearch {
     const double reach = std::max(2 * m.half_width, options_.smallest);
     const std::vector<Index> carrier = surface_beside(round, found.root, reach);
     m.carrier_half_chord = mean_half_chord(carrier);
+    m.carrier_half_thickness = value_at_rank(half_chords(carrier), 0.25);
     m.msp_ratio = std::max(1.0, mean_perimeter(carrier) * sliced / perimeter);
     // A spike that noise or a slit leaves on something thick is no twig, however thin it is.
     if (!(m.depth > kLeastTipDepth * own_smallest(m.carrier_half_chord))) return std::nullopt;
