@@ -49,19 +49,22 @@ class Influences {
   }
 
  private:
+  // At most four, each with a weight that can be seen. What the least one has goes to the joint above it that
+  // is left, so what follows any other joint with all below it stays as it was.
   std::array<Influence, 4> strongest() {
-    const std::size_t kept = std::min<std::size_t>(4, way_.size());
+    for (;;) {
+      const auto least =
+          std::min_element(way_.begin(), way_.end(),
+                           [](const Influence& a, const Influence& b) { return a.weight < b.weight; });
+      if (way_.size() == 1 || (way_.size() <= 4 && least->weight > kLeastWeight)) break;
+      (least == way_.begin() ? least + 1 : least - 1)->weight += least->weight;
+      way_.erase(least);
+    }
     std::sort(way_.begin(), way_.end(), [](const Influence& a, const Influence& b) {
       return a.weight > b.weight || (a.weight == b.weight && a.joint < b.joint);
     });
     std::array<Influence, 4> influences{};
-    double sum = 0;
-    for (std::size_t i = 0; i < kept; ++i)
-      if (i == 0 || way_[i].weight > kLeastWeight) {
-        influences[i] = way_[i];
-        sum += way_[i].weight;
-      }
-    for (Influence& influence : influences) influence.weight /= sum;
+    std::copy(way_.begin(), way_.end(), influences.begin());
     return influences;
   }
 
