@@ -104,16 +104,24 @@ struct SplitEdges {
   std::vector<Index> convex, concave;  // the vertices in their middles
 };
 
-// Splits all but the first of the edges that join the same two vertices.
+// Splits all but one of the edges that join the same two vertices: if it can be one that is not concave,
+// since the middles of concave ones can move away from it into the void, so that the solid is wider than a
+// line there.
 SplitEdges split_double_edges(FaceSet& faces, std::vector<Index>& twin, std::vector<Vector3>& positions) {
   SplitEdges added;
   for (bool again = true; again;) {
     again = false;
-    std::vector<Index> split;
+    std::vector<Index> split, edges;
     EdgeTable(static_cast<Index>(positions.size()), faces.corners)
         .each_edge([&](Index, Index, const HalfedgeEnd* first, const HalfedgeEnd* last) {
+          edges.clear();
           for (const HalfedgeEnd* e = first; e != last; ++e)
-            if (e->halfedge < twin[e->halfedge] && e != first) split.push_back(e->halfedge);
+            if (e->halfedge < twin[e->halfedge]) edges.push_back(e->halfedge);
+          if (edges.size() < 2) return;
+          const auto stays = std::find_if(edges.begin(), edges.end(),
+                                          [&](Index h) { return !is_concave(faces, twin, h, positions); });
+          edges.erase(stays == edges.end() ? edges.begin() : stays);
+          split.insert(split.end(), edges.begin(), edges.end());
         });
     std::vector<char> changed(faces.count(), 0);
     for (const Index h : split) {
@@ -274,7 +282,7 @@ void make_vertices(const std::vector<Vector3>& points, const FaceSet& all, std::
   mended.counts.split_vertices = vertices.split();
   const SplitEdges split = split_double_edges(faces, twin, mended.soup.points);
   mended.counts.split_edges = static_cast<Index>(split.convex.size() + split.concave.size());
-  constexpr double kBridge = 0.1;
+  constexpr double kBridge = 0.02;
   nudge(faces, split.concave, kBridge, Way::kIntoVoid, mended.soup.points);
   std::vector<Index> doubled = vertices.doubled();
   doubled.insert(doubled.end(), split.convex.begin(), split.convex.end());

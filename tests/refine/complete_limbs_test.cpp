@@ -8,6 +8,7 @@
 #include "mspskel/arcs/detail/arc_editor.h"
 #include "mspskel/limbs/limb_tips.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
+#include "mspskel/mesh/build_mesh.h"
 #include "mspskel/refine/detail/arc_leaves.h"
 #include "mspskel/refine/prune_branches.h"
 #include "mspskel/refine/refine_arcs.h"
@@ -51,7 +52,87 @@ ArcGraph straight_axis(const Solid& solid, double from, double to) {
   return graph;
 }
 
+// A horn along the x axis whose radius falls from 1 to 1/20, with a spike of one vertex on a face of every
+// fourth ring, as long as `spike` radii there.
+PolygonSoup horn_with_spikes(double spike, int& spikes) {
+  constexpr Index kRings = 60, kRound = 8;
+  PolygonSoup soup;
+  double x = 0;
+  std::vector<double> radii;
+  for (Index i = 0; i < kRings; ++i) {
+    const double radius = std::pow(0.05, i / (kRings - 1.0));
+    radii.push_back(radius);
+    for (Index k = 0; k < kRound; ++k) {
+      const double turn = 2 * kPi * (k + 0.5 * (i % 2)) / kRound;
+      soup.points.push_back({x, radius * std::cos(turn), radius * std::sin(turn)});
+    }
+    x += 0.7 * radius;
+  }
+  const auto add = [&](Index a, Index b, Index c, bool has_spike, double length) {
+    if (!has_spike) return soup.add_triangle(a, b, c);
+    const Vector3 middle = (soup.points[a] + soup.points[b] + soup.points[c]) / 3;
+    const Vector3 normal = (soup.points[b] - soup.points[a]).cross(soup.points[c] - soup.points[a]);
+    const auto top = static_cast<Index>(soup.points.size());
+    soup.points.push_back(middle + length * normal.normalized());
+    soup.add_triangle(a, b, top);
+    soup.add_triangle(b, c, top);
+    soup.add_triangle(c, a, top);
+    ++spikes;
+  };
+  for (Index i = 0; i + 1 < kRings; ++i)
+    for (Index k = 0; k < kRound; ++k) {
+      const Index next = (k + 1) % kRound, a = kRound * i + k, b = kRound * i + next, c = a + kRound,
+                  d = b + kRound;
+      const bool here = i % 4 == 2 && k == (3 * i / 4) % kRound;
+      if (i % 2 == 0) {
+        add(a, b, c, here, spike * radii[i]);
+        soup.add_triangle(b, d, c);
+      } else {
+        soup.add_triangle(a, d, c);
+        soup.add_triangle(a, b, d);
+      }
+    }
+  for (const Index ring : {0, kRings - 1}) {
+    const auto middle = static_cast<Index>(soup.points.size());
+    soup.points.push_back({soup.points[kRound * ring].x(), 0, 0});
+    for (Index k = 0; k < kRound; ++k) {
+      const Index a = kRound * ring + k, b = kRound * ring + (k + 1) % kRound;
+      ring == 0 ? soup.add_triangle(b, a, middle) : soup.add_triangle(a, b, middle);
+    }
+  }
+  return soup;
+}
+
 }  // namespace
+
+TEST_CASE("Most spikes of one vertex on an input get their arcs, and stubs none") {
+  int spikes = 0;
+  const Solid solid(build_mesh(horn_with_spikes(2.5, spikes)));
+  REQUIRE(solid.surface.component_count == 1);
+  double far = 0;
+  for (const Vector3& x : solid.surface.position) far = std::max(far, solid.model(x).x());
+  const auto added = [&](const Solid& on, detail::InnerSurface kind) {
+    ArcGraph graph;
+    graph.add_hub(on.at({0.3, 0, 0}));
+    graph.add_hub(on.at({far - 0.03, 0, 0}));
+    line(graph, 0, 1);
+    subdivide(graph, 0.002);
+    map_to_nearest(graph, on.surface.position);
+    detail::InnerGraph inner(on.surface, on.hierarchy, {}, kind);
+    std::vector<LimbTip> tips;
+    const Index count = complete_limbs(graph, inner, tips, {}, 0.004);
+    CHECK(type_of(graph) == GraphType{1, 0});
+    CHECK(crossings(graph, on.hierarchy) == 0);
+    return count;
+  };
+  const Index of_input = added(solid, detail::InnerSurface::kInput);
+  CHECK(2 * of_input > spikes);
+  CHECK(of_input > added(solid, detail::InnerSurface::kCoarser));
+  int stubs = 0;
+  const Solid stubby(build_mesh(horn_with_spikes(0.4, stubs)));
+  REQUIRE(stubs == spikes);
+  CHECK(added(stubby, detail::InnerSurface::kInput) == 0);
+}
 
 TEST_CASE("A limb without an arc gets one, and nothing is added where all have theirs") {
   const Solid solid(to_mesh(skin_graph(tripod(), 1200)));

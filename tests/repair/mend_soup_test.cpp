@@ -1,12 +1,15 @@
 // Whatever a file holds becomes a closed surface of the right pieces, or is refused.
 #include "mspskel/repair/mend_soup.h"
 
+#include <array>
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "mspskel/base/error.h"
 #include "mspskel/mesh/build_mesh.h"
 #include "mspskel/mesh/mesh_report.h"
 #include "support/meshes.h"
+#include "support/soups.h"
 #include "topology/voxel_solids.h"
 
 using namespace mspskel;
@@ -144,6 +147,45 @@ TEST_CASE(
   CHECK(facts.volume == Approx(40).epsilon(0.01));
   const MeshReport report = report_mesh(make_snapshot(build_mesh(mended.soup)), {0});
   CHECK(report.degenerate_faces == 0);
+}
+
+TEST_CASE("what hangs on a solid by an edge between two wedges of void hangs on it by more than a line") {
+  // A prism with an edge along the z axis, and a tetrahedron on that edge with 30 degrees of void on one side
+  // of it and 200 on the other.
+  const bool mirrored = GENERATE(false, true), small_first = GENERATE(false, true);
+  const auto at = [&](double degrees, double radius, double z) {
+    const double turn = degrees * kPi / 180;
+    return Vector3((mirrored ? -1 : 1) * radius * std::cos(turn), radius * std::sin(turn), z);
+  };
+  PolygonSoup large, small;
+  large.points = {at(0, 0, 0), at(180, 4, 0), at(270, 4, 0), at(0, 0, 1), at(180, 4, 1), at(270, 4, 1)};
+  for (const auto& [a, b, c] : {std::array<Index, 3>{0, 2, 1},
+                                {3, 4, 5},
+                                {0, 1, 4},
+                                {0, 4, 3},
+                                {1, 2, 5},
+                                {1, 5, 4},
+                                {2, 0, 3},
+                                {2, 3, 5}})
+    large.add_triangle(a, b, c);
+  small.points = {at(0, 0, 0), at(0, 0, 1), at(110, 0.5, 0.5), at(150, 0.5, 0.5)};
+  for (const auto& [a, b, c] : {std::array<Index, 3>{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}})
+    small.add_triangle(a, b, c);
+  const MendedSoup mended = mend_soup(small_first ? together({small, large}) : together({large, small}));
+  REQUIRE(mended.counts.joined_pieces == 1);
+  REQUIRE(facts_of(mended).components == 1);
+  const SurfaceSnapshot surface = make_snapshot(build_mesh(mended.soup));
+  double thinnest = 1;
+  for (Index v = 0; v < surface.vertex_count(); ++v)
+    for_each_neighbour(surface, v, [&](Index a) {
+      for_each_neighbour(surface, v, [&](Index b) {
+        const Vector3 to_a = surface.position[a] - surface.position[v],
+                      to_b = surface.position[b] - surface.position[v];
+        if (a < b && to_a.dot(to_b) < 0)
+          thinnest = std::min(thinnest, to_a.cross(to_b).norm() / (to_a - to_b).norm() / to_a.norm());
+      });
+    });
+  CHECK(thinnest > 1e-3);
 }
 
 TEST_CASE("a small solid that a pair of opposite triangles hangs on a large one is a part of it") {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "mspskel/mesh/surface_snapshot.h"
 
@@ -12,6 +13,7 @@ namespace detail {
 // Its mouth is the level's contour round it.
 struct PartLevel {
   double depth = 0, area = 0, mouth = 0;
+  double span = 0;  // of the mouth (PartShape); 0 where it was not asked for
 
   double slenderness() const { return 2 * kPi * depth * depth / area; }
   // Depth over the radius of a disc with such a rim: 0.82 for the corner of a cube, 1 for a right-angled
@@ -20,6 +22,11 @@ struct PartLevel {
   // Area over that of the disc: 1 for what is flat, 2 for a half ball, less than 1 for the corner of a cube
   // and at most pi / 2 for that of a thin plate.
   double bulge() const { return 4 * kPi * area / (mouth * mouth); }
+  // The shorter side of a rectangle as long round and as large as the mouth; of a square where that is
+  // rounder than a square.
+  double mouth_thickness() const {
+    return 0.25 * (mouth - std::sqrt(std::max(0.0, mouth * mouth - 16 * span)));
+  }
 };
 
 // Whether few triangles tell a twig: it is as deep as two radii of its mouth. The bumps of a rough surface

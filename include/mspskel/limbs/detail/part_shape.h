@@ -15,6 +15,7 @@ struct PartShape {
   double area = 0;
   double mean_depth = 0;  // below the top
   double mouth = 0;       // the length of the level's contour
+  double span = 0;        // the area that the contour goes round, as the plane that sees most of it does
 };
 
 class PartShapeSum {
@@ -37,7 +38,9 @@ class PartShapeSum {
     } while (h != first);
   }
 
-  PartShape shape(double top) const { return {area_, area_ > 0 ? top - moment_ / area_ : 0.0, mouth_}; }
+  PartShape shape(double top) const {
+    return {area_, area_ > 0 ? top - moment_ / area_ : 0.0, mouth_, span_.norm()};
+  }
 
  private:
   struct Corner {
@@ -60,9 +63,11 @@ class PartShapeSum {
     }
     if (crossings == 2) mouth_ += (rim[1] - rim[0]).norm();
     for (std::size_t k = 2; k < corners; ++k) {
-      const double area =
-          0.5 * (cut[k - 1].position - cut[0].position).cross(cut[k].position - cut[0].position).norm();
+      const Vector3 across =
+          0.5 * (cut[k - 1].position - cut[0].position).cross(cut[k].position - cut[0].position);
+      const double area = across.norm();
       area_ += area;
+      span_ += across;  // what a closed contour goes round is the same of all surfaces in it
       moment_ += area * (cut[0].distance + cut[k - 1].distance + cut[k].distance) / 3;
     }
   }
@@ -73,6 +78,7 @@ class PartShapeSum {
   const std::vector<double>& distance_;
   double level_;
   double area_ = 0, moment_ = 0, mouth_ = 0;
+  Vector3 span_ = Vector3::Zero();
 };
 
 }  // namespace detail

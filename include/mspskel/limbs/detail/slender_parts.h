@@ -7,6 +7,7 @@
 
 #include "mspskel/limbs/detail/growing_parts.h"
 #include "mspskel/limbs/detail/part_level.h"
+#include "mspskel/limbs/detail/part_shape.h"
 #include "mspskel/limbs/limb_measures.h"
 
 namespace mspskel {
@@ -27,6 +28,8 @@ struct SlenderPart {
   Index top;             // where it reaches farthest
   PartLevel slenderest;  // for its area; of no depth where it never is of enough vertices to tell
   PartLevel narrowest;   // for its mouth; the same where it never is less than half of its component
+  // The same of the levels at which it has few vertices, where no other evidence is asked for.
+  PartLevel slenderest_of_few, narrowest_of_few;
 };
 
 inline std::vector<double> half_areas_of_components(const SurfaceSnapshot& surface) {
@@ -44,7 +47,7 @@ std::vector<SlenderPart> slender_parts(const SurfaceSnapshot& surface, const std
   struct Notes {
     LevelSum sum;
     Index vertices = 0;
-    PartLevel slenderest, narrowest;
+    PartLevel slenderest, narrowest, slenderest_of_few, narrowest_of_few;
   };
   using Parts = GrowingParts<Notes>;
   const std::vector<double> half_area = half_areas_of_components(surface);
@@ -52,11 +55,31 @@ std::vector<SlenderPart> slender_parts(const SurfaceSnapshot& surface, const std
   Parts parts(surface, distance, std::move(vertices), place);
   std::vector<SlenderPart> found;
   const auto finish = [&](const typename Parts::Part& part) {
-    if (part.notes.slenderest.depth > 0 || part.notes.narrowest.depth > 0)
-      found.push_back({part.top, part.notes.slenderest, part.notes.narrowest});
+    const Notes& n = part.notes;
+    if (n.slenderest.depth > 0 || n.narrowest.depth > 0 || n.slenderest_of_few.depth > 0)
+      found.push_back({part.top, n.slenderest, n.narrowest, n.slenderest_of_few, n.narrowest_of_few});
+  };
+  const auto measure_few = [&](typename Parts::Part& part, Index v) {
+    Notes& notes = part.notes;
+    if (notes.vertices >= kLeastEvidence) return;
+    PartLevel level = notes.sum.at(distance[v], distance[part.top]);
+    if (!(level.depth > least_depth(part.top)) || !(level.area > 1e-12 * level.depth) || !(level.mouth > 0) ||
+        level.area > half_area[surface.component[v]])
+      return;
+    PartLevel &slenderest = notes.slenderest_of_few, &narrowest = notes.narrowest_of_few;
+    const bool is_slenderest = slenderest.depth == 0 || level.slenderness() > slenderest.slenderness();
+    const bool is_narrowest = narrowest.depth == 0 || level.depth_over_mouth() > narrowest.depth_over_mouth();
+    if (!is_slenderest && !is_narrowest) return;
+    PartShapeSum shape(surface, distance, distance[v]);
+    for (const Index w : part.vertices) shape.add_vertex(w);
+    level.span = shape.shape(distance[part.top]).span;
+    if (is_slenderest) slenderest = level;
+    if (is_narrowest) narrowest = level;
   };
   parts.grow(
-      [&](typename Parts::Part& high, typename Parts::Part& low, Index) {
+      [&](typename Parts::Part& high, typename Parts::Part& low, Index saddle) {
+        measure_few(high, saddle);
+        measure_few(low, saddle);
         finish(low);
         high.notes.sum.add(low.notes.sum);
         high.notes.vertices += low.notes.vertices;
@@ -65,6 +88,7 @@ std::vector<SlenderPart> slender_parts(const SurfaceSnapshot& surface, const std
         Notes& notes = part.notes;
         notes.sum.add(change_at(surface, distance, v));
         ++notes.vertices;
+        measure_few(part, v);
         const PartLevel level = notes.sum.at(distance[v], distance[part.top]);
         // Within rounding a line, which encloses nothing.
         if (!(level.depth > least_depth(v)) || !(level.area > 1e-12 * level.depth)) return;

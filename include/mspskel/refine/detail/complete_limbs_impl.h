@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 
+#include "mspskel/arcs/detail/arc_points.h"
 #include "mspskel/arcs/detail/graph_points.h"
 #include "mspskel/arcs/detail/own_step.h"
 #include "mspskel/arcs/detail/polyline_ends.h"
@@ -12,6 +13,7 @@
 #include "mspskel/limbs/detail/slender_parts.h"
 #include "mspskel/refine/detail/arc_leaves.h"
 #include "mspskel/refine/detail/arc_sections.h"
+#include "mspskel/refine/detail/way_below.h"
 #include "mspskel/solid/detail/ball_tree.h"
 #include "mspskel/solid/detail/inner_graph.h"
 
@@ -34,7 +36,8 @@ class LimbCompletion {
         tips_(tips),
         options_(options),
         step_(step),
-        inner_(inner) {
+        inner_(inner),
+        below_(surface_, solid_) {
     const ArcBalls balls(graph, solid_, execution);
     const BallTree tree(all_balls(graph, balls));
     outside_.assign(surface_.position.size(), 0.0);
@@ -122,8 +125,25 @@ class LimbCompletion {
     if (own.depth > 0 && own.slenderness() >= uncovered_slenderness(options_) &&
         !is_slab_corner(own.depth, own.depth_over_mouth(), own.slenderness(), 2 * carrier_[part.top], kSlack))
       return own;
+    if (const std::optional<PartLevel> twig = twig_level(part)) return twig;
     const PartLevel& level = part.narrowest;
     if (level.depth > 0 && is_bump(level, 2 * kPi * carrier_[part.top], options_)) return level;
+    return std::nullopt;
+  }
+
+  // On an input few triangles are all that there is, so they tell as much as the many of other limbs; on a
+  // coarser surface they are what coarsening left. The corner of a slab has a mouth as thin as that.
+  std::optional<PartLevel> twig_level(const SlenderPart& part) const {
+    constexpr double kSlack = 1.1;
+    if (!inner_.is_input() || part.slenderest_of_few.depth == 0) return std::nullopt;
+    const auto is_corner = [&](const PartLevel& level) {
+      return is_slab_corner(level.depth, level.depth_over_mouth(), level.slenderness(),
+                            level.mouth_thickness(), kSlack);
+    };
+    const PartLevel& own = part.slenderest_of_few;
+    if (own.slenderness() >= options_.slenderness && !is_corner(own)) return own;
+    const PartLevel& level = part.narrowest_of_few;
+    if (!is_corner(level) && is_bump(level, 2 * kPi * carrier_[part.top], options_)) return level;
     return std::nullopt;
   }
 
@@ -188,17 +208,72 @@ class LimbCompletion {
       if ((surface_.position[w] - surface_.position[v]).norm() <= reach) outside_[w] = 0;
   }
 
-  // The way from the skeleton to v in steps: straight from the nearest point that sees v, or through the
-  // solid.
-  bool find_way(Index v, double step, GraphPoint& start, std::vector<Vector3>& way) {
-    const Vector3& target = surface_.position[v];
+  using NearPoints = std::vector<std::pair<double, GraphPoint>>;
+
+  // The points of the skeleton nearest to x, of a vertex's component.
+  NearPoints own_points(Index v, const Vector3& x) const {
     const auto own = [&](Index hub) { return hub_component_[hub] == surface_.component[v]; };
-    const auto points =
-        nearest_points(graph_, target, own, [&](Index arc) { return own(graph_.arcs[arc].hub[0]); });
+    return nearest_points(graph_, x, own, [&](Index arc) { return own(graph_.arcs[arc].hub[0]); });
+  }
+
+  // The way from the skeleton to v in steps.
+  bool find_way(Index v, double half_width, GraphPoint& start, std::vector<Vector3>& way) {
+    const double step = step_for_width(half_width, step_);
+    const NearPoints points = own_points(v, surface_.position[v]);
     if (points.empty()) return false;
-    const auto reaches = [&] {
-      return (way.back() - target).norm() <= 2 * std::max(step, solid_.distance(way.back()));
+    if (!find_short_way(v, step, points, start, way) && !find_way_below(v, step, points, start, way))
+      return false;
+    lead_into_tip(way, surface_.position[v], step, half_width);
+    return way.size() > 2;
+  }
+
+  bool reaches(const std::vector<Vector3>& way, const Vector3& target, double step) const {
+    return (way.back() - target).norm() <= 2 * std::max(step, solid_.distance(way.back()));
+  }
+
+  // Where a limb is thinner than steps are long, they end far from its tip, though that is in sight.
+  void lead_into_tip(std::vector<Vector3>& way, const Vector3& target, double step, double half_width) const {
+    const Vector3 left = target - way.back();
+    const double length = left.norm();
+    if (length <= half_width || reaches(way, target, std::min(step, half_width)) ||
+        solid_.segment_crosses(way.back(), way.back() + 0.98 * left))
+      return;
+    Arc straight;
+    straight.points = {way.back(), target - half_width / length * left};
+    const std::vector<Vector3> points = resampled(straight, step);
+    way.insert(way.end(), points.begin() + 1, points.end());
+  }
+
+  // For a limb of so few triangles that no path leads out of it, or behind a pinch.
+  bool find_way_below(Index v, double step, const NearPoints& points, GraphPoint& start,
+                      std::vector<Vector3>& way) {
+    constexpr std::size_t kTried = 8;
+    const auto sees_skeleton = [&](const Vector3& x) {
+      NearPoints near = points;
+      for (auto& [distance, point] : near) distance = (point.position - x).norm();
+      const auto end = near.begin() + static_cast<std::ptrdiff_t>(std::min(kTried, near.size()));
+      std::partial_sort(near.begin(), end, near.end(),
+                        [](const auto& a, const auto& b) { return a.first < b.first; });
+      const auto seen = std::find_if(near.begin(), end, [&](const auto& at) {
+        return !solid_.segment_crosses(at.second.position, x) && solid_.inside(at.second.position);
+      });
+      if (seen == end) return false;
+      start = seen->second;
+      return true;
     };
+    Arc line;
+    line.points = below_.run(v, kMostOfWay, sees_skeleton);
+    if (line.points.empty()) return false;
+    line.points.insert(line.points.begin(), start.position);
+    way = resampled_inside(line, step, solid_, {});
+    lead_towards(way, surface_.position[v], solid_, step);
+    return true;
+  }
+
+  // Straight from the nearest point that sees v, or through the solid.
+  bool find_short_way(Index v, double step, const NearPoints& points, GraphPoint& start,
+                      std::vector<Vector3>& way) {
+    const Vector3& target = surface_.position[v];
     for (const auto& [distance, point] : points) {
       const Vector3& x = point.position;
       // From outside, where the skeleton could not be led inside, the surface is in sight as well.
@@ -207,7 +282,7 @@ class LimbCompletion {
       way.assign(1, x);
       lead_towards(way, target, solid_, step);
       // Along a thin limb the straight way may graze the surface.
-      if (!reaches()) break;
+      if (!reaches(way, target, step)) break;
       return way.size() > 2;
     }
     inner_.prepare();
@@ -227,7 +302,7 @@ class LimbCompletion {
     way.insert(way.end(), between.begin(), between.end());
     const std::size_t inside = way.size();
     lead_towards(way, target, solid_, step);
-    if (!reaches()) {  // the target's own chord leads there for certain
+    if (!reaches(way, target, step)) {  // the target's own chord leads there for certain
       way.resize(inside);
       way.push_back(inner_.point(v));
       lead_towards(way, target, solid_, step);
@@ -238,7 +313,7 @@ class LimbCompletion {
   bool try_limb(Index v, double half_width) {
     GraphPoint start;
     std::vector<Vector3> way;
-    if (!find_way(v, step_for_width(half_width, step_), start, way)) return false;
+    if (!find_way(v, half_width, start, way)) return false;
     // A few rounds of centring with the start held.
     way = centred_alone(way, solid_, step_);
     if (solid_.segment_crosses(start.position, way.front())) return false;
@@ -273,6 +348,7 @@ class LimbCompletion {
   const LimbOptions& options_;
   double step_;
   InnerGraph& inner_;
+  WayBelow below_;
   std::vector<Index> hub_component_;
   std::vector<double> outside_;  // per vertex: distance beyond all balls, at most 0 where done with
   std::vector<double> carrier_;  // per vertex: radius of the ball that it is least beyond

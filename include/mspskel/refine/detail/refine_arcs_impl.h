@@ -33,7 +33,7 @@ class ArcRefinement {
         execution_(execution),
         classes_(classes),
         type_(homotopy_type(graph)),
-        inner_(surface, solid, execution),
+        inner_(surface, solid, execution, &surface == &input ? InnerSurface::kInput : InnerSurface::kCoarser),
         draft_(options.centering) {
     // Until the graph's shape is settled a coarser line will do.
     draft_.rounds = (options.centering.rounds + 2) / 3;
@@ -80,7 +80,7 @@ class ArcRefinement {
     counts_.routing = route_inside(graph_, inner_);
     // Edges of the coarser surface may cut what bounds the solid where a limb is thin.
     if (counts_.routing.unroutable > 0 && &input_ != &surface_) {
-      InnerPaths fine(input_, solid_, execution_);
+      InnerPaths fine(input_, solid_, execution_, InnerSurface::kInput);
       const RoutingResult again = route_arcs_inside(graph_, solid_, fine);
       counts_.routing.routed += again.routed;
       counts_.routing.unroutable = again.unroutable;

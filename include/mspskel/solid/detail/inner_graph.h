@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -23,14 +24,53 @@
 namespace mspskel {
 namespace detail {
 
-// Paths along the mesh's graph with every vertex moved to the middle of its inward chord. Nothing is computed
+// Three edges that close up and are no face: the cross-section of a limb as thin as its mesh allows. Its
+// middle is a gate, since the middles of the chords of so few vertices may not see each other through it.
+struct Gate {
+  std::array<Index, 3> corner;
+};
+
+// In the order of their corners. Cost: O(edges · valence).
+inline std::vector<Gate> find_gates(const SurfaceSnapshot& surface) {
+  std::vector<Gate> gates;
+  std::vector<Index> beside(surface.position.size(), kNone);  // the last vertex that each is beside
+  for (Index a = 0; a < surface.vertex_count(); ++a) {
+    for_each_neighbour(surface, a, [&](Index b) { beside[b] = a; });
+    for_each_neighbour(surface, a, [&](Index b) {
+      if (b < a) return;
+      Index left = kNone, right = kNone;  // the apexes of the faces at a-b
+      const Index first = surface.vertex_halfedge[a];
+      Index h = first;
+      do {
+        if (surface.target(h) == b) {
+          left = surface.apex(h);
+          right = surface.apex(surface.twin[h]);
+        }
+        h = surface.next_outgoing(h);
+      } while (h != first);
+      for_each_neighbour(surface, b, [&](Index c) {
+        if (c > b && beside[c] == a && c != left && c != right) gates.push_back({{a, b, c}});
+      });
+    });
+  }
+  return gates;
+}
+
+// Which surface the paths run beside. Few triangles round a limb are all that there is on the input, and what
+// coarsening left on a coarser one.
+enum class InnerSurface { kInput, kCoarser };
+
+// Paths along the mesh's graph with every vertex moved to the middle of its inward chord, and through the
+// gates of an input. Nothing is computed
 // before prepare(), and distances to the surface only where a path comes by: many meshes need no path at all.
 // Any surface within the solid will do: no vertex of it goes in or out.
 class InnerPaths {
  public:
   InnerPaths(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
-             const Execution& execution = {})
-      : surface_(surface), solid_(solid), execution_(execution) {}
+             const Execution& execution = {}, InnerSurface kind = InnerSurface::kCoarser)
+      : surface_(surface), solid_(solid), execution_(execution), kind_(kind) {}
+
+  bool is_input() const { return kind_ == InnerSurface::kInput; }
 
   // Once, before anything else. Cost: two rays a vertex.
   void prepare() {
@@ -39,10 +79,11 @@ class InnerPaths {
     clearance_.assign(surface_.position.size(), 0.0);
     parallel_for(
         surface_.vertex_count(), "arcs", execution_, [] { return 0; }, [&](Index v, int) { place(v); });
-    for (Index v = 0; v < surface_.vertex_count(); ++v)
+    add_gates();
+    for (Index v = 0; v < node_count(); ++v)
       if (usable(v)) index_.add(v, point_[v], point_[v]);
     index_.build();
-    marks_.assign(surface_.position.size(), {});
+    marks_.assign(point_.size(), {});
     edge_.assign(surface_.origin.size(), EdgeState::kUnknown);
   }
 
@@ -174,6 +215,28 @@ class InnerPaths {
     clearance_[v] = kUnknown;
   }
 
+  Index node_count() const { return static_cast<Index>(point_.size()); }
+
+  void add_gates() {
+    if (!is_input()) return;
+    gates_ = find_gates(surface_);
+    for (std::size_t i = 0; i < gates_.size(); ++i) {
+      const auto [a, b, c] = gates_[i].corner;
+      const Vector3 middle = (surface_.position[a] + surface_.position[b] + surface_.position[c]) / 3;
+      point_.push_back(middle);
+      clearance_.push_back(solid_.inside(middle) ? kUnknown : 0.0);
+      for (const Index v : gates_[i].corner)
+        gates_at_[v].push_back(surface_.vertex_count() + static_cast<Index>(i));
+    }
+  }
+
+  // visit(gate) for the gates with a corner at v.
+  template <class Visit>
+  void for_each_gate_at(Index v, Visit visit) const {
+    if (const auto at = gates_at_.find(v); at != gates_at_.end())
+      for (const Index gate : at->second) visit(gate);
+  }
+
   double clearance(Index v) {
     if (clearance_[v] == kUnknown) clearance_[v] = solid_.distance(point_[v]);
     return clearance_[v];
@@ -193,6 +256,8 @@ class InnerPaths {
   // Whether the way along an edge, from one neighbour to the other, meets what bounds the solid. Searches
   // come by the same edges time after time, so the solid is asked once.
   bool edge_crosses(Index from, Index to) {
+    if (std::max(from, to) >= surface_.vertex_count())  // a gate
+      return solid_.segment_crosses(point_[from], point_[to]);
     const Index h = edge_between(from, to);
     if (edge_[h] == EdgeState::kUnknown)
       edge_[h] = solid_.segment_crosses(point_[from], point_[to]) ? EdgeState::kCrosses : EdgeState::kInside;
@@ -204,14 +269,26 @@ class InnerPaths {
   // visit(w, cost) for the edges of a usable vertex to usable ones, whether they stay inside or not.
   template <class Visit>
   void for_each_edge(Index v, Visit visit) {
-    const Index first = surface_.vertex_halfedge[v];
-    Index h = first;
-    do {
-      const Index w = surface_.target(h);
-      h = surface_.next_outgoing(h);
-      if (!usable(w)) continue;
-      visit(w, step_cost((point_[w] - point_[v]).norm(), std::min(clearance(v), clearance(w))));
-    } while (h != first);
+    const auto lead_to = [&](Index w) {
+      if (usable(w) && w != v)
+        visit(w, step_cost((point_[w] - point_[v]).norm(), std::min(clearance(v), clearance(w))));
+    };
+    const auto lead_to_gates_at = [&](Index w) { for_each_gate_at(w, lead_to); };
+    if (v < surface_.vertex_count()) {
+      for_each_neighbour(surface_, v, lead_to);
+      if (gates_.empty()) return;
+      lead_to_gates_at(v);
+      for_each_neighbour(surface_, v, lead_to_gates_at);
+      return;
+    }
+    for (const Index corner : gates_[v - surface_.vertex_count()].corner) {
+      lead_to(corner);
+      lead_to_gates_at(corner);
+      for_each_neighbour(surface_, corner, [&](Index w) {
+        lead_to(w);
+        lead_to_gates_at(w);
+      });
+    }
   }
 
   // Landmarks take about as long as four searches of the whole graph.
@@ -220,7 +297,7 @@ class InnerPaths {
     if (!landmarks_.empty()) return;
     came_by_ += marked_.size();
     if (came_by_ < kSearches * point_.size()) return;
-    landmarks_.build(surface_.vertex_count(), goal, [&](Index v, auto visit) { for_each_edge(v, visit); });
+    landmarks_.build(node_count(), goal, [&](Index v, auto visit) { for_each_edge(v, visit); });
   }
 
   // The nearest inner points that x sees.
@@ -253,11 +330,14 @@ class InnerPaths {
   const SurfaceSnapshot& surface_;
   const BoundingVolumeHierarchy& solid_;
   const Execution execution_;
-  std::vector<Vector3> point_;
-  std::vector<double> clearance_;  // 0: no chord
-  BoxIndex index_;                 // of the usable points
-  std::vector<EdgeState> edge_;    // per half-edge
-  std::vector<Mark> marks_;        // per vertex; of `marked_` alone they mean something
+  const InnerSurface kind_;
+  std::vector<Gate> gates_;
+  std::unordered_map<Index, std::vector<Index>> gates_at_;  // a vertex
+  std::vector<Vector3> point_;                              // of the vertices, then of the gates
+  std::vector<double> clearance_;                           // 0: no chord, or a gate outside
+  BoxIndex index_;                                          // of the usable points
+  std::vector<EdgeState> edge_;                             // per half-edge
+  std::vector<Mark> marks_;  // per point; of `marked_` alone they mean something
   std::vector<Index> marked_;
   Landmarks landmarks_;      // of this graph, where searches have come by many vertices
   std::size_t came_by_ = 0;  // vertices, before there were landmarks
@@ -268,6 +348,7 @@ class InnerPaths {
 class InnerGraph : public InnerPaths {
  public:
   using InnerPaths::InnerPaths;
+  using InnerPaths::is_input;
   using InnerPaths::nearest;
   using InnerPaths::point;
   using InnerPaths::solid;
