@@ -18,7 +18,7 @@ namespace detail {
 // goblet or the top of a mushroom widens beyond its mouth: it has a rim, and no end.
 inline bool is_bump(const PartLevel& level, double carrier_rim, const LimbOptions& options) {
   constexpr double kSquare = 4 / kPi;  // over the rim of a ball of that width
-  return level.depth_over_mouth() >= 0.64 * options.slenderness && level.bulge() >= 1.5 &&
+  return level.depth_over_mouth() >= 0.64 * options.slenderness && level.bulge() >= 1.3 &&
          level.slenderness() >= std::min(0.6 * options.slenderness, 0.5 * level.depth_over_mouth()) &&
          level.mouth <= kSquare * carrier_rim;
 }
