@@ -115,6 +115,7 @@ TEST_CASE("rails end beyond the last rung, and neither corners of plates nor rou
                                            {"table", 3, kSquare, 0.7, 0, false},
                                            {"table", 5, kSquare, 1, 0, true},
                                            {"table", 5, kSquare, 0.7, 0, false},
+                                           {"table", 6, kSquare, 0.7, 0, true},
                                            {"hammer", kNone, kSquare, 0.2, 0.2, false}}) {
     SampleOptions options;
     options.count = c.count;

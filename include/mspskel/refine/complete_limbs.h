@@ -17,10 +17,10 @@ namespace mspskel {
 // is left that reaches 3.5 smallest features, or as far as a thin ball is wide, beyond all balls. It is the
 // law of find_limb_tips with another distance, and that of find_uncovered_parts, so what the report would
 // call uncovered has been tried. Where `inner` is of an input, parts of few vertices need no other evidence,
-// and rings round them show a way where no path leads out. A new arc is a leaf, so the homotopy type stays.
-// It takes the vertices that it covers better, and its end becomes a tip as well. Returns the number of arcs
-// added. Cost: O(vertices · points) once, then O(vertices · points of the arc + vertices log vertices) and a
-// few queries an arc tried.
+// and points just below the surface show a way where no path leads out. A new arc is a leaf, so the homotopy
+// type stays. It takes the vertices that it covers better, and its end becomes a tip as well. Returns the
+// number of arcs added. Cost: O(vertices · points) once, then O(vertices · points of the arc + vertices log
+// vertices) and a few queries an arc tried.
 Index complete_limbs(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
                      std::vector<LimbTip>& tips, const LimbOptions& options, double step);
 // On the surface and in the solid of `inner`, with its paths.

@@ -14,8 +14,9 @@ namespace mspskel {
 namespace detail {
 
 // A bump that is no wider than what carries it, as a fin, a nose or a boss: deep for its mouth and bulging
-// from it, the mouth no longer than the rim of a square as wide as the ball that carries it. The foot of a
-// goblet or the top of a mushroom widens beyond its mouth: it has a rim, and no end.
+// from it by a quarter more than the corner of a block, which has 1.05, the mouth no longer than the rim of a
+// square as wide as the ball that carries it. The foot of a goblet or the top of a mushroom widens beyond its
+// mouth: it has a rim, and no end.
 inline bool is_bump(const PartLevel& level, double carrier_rim, const LimbOptions& options) {
   constexpr double kSquare = 4 / kPi;  // over the rim of a ball of that width
   return level.depth_over_mouth() >= 0.64 * options.slenderness && level.bulge() >= 1.3 &&

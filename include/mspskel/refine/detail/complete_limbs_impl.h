@@ -117,10 +117,11 @@ class LimbCompletion {
     return false;
   }
 
+  static constexpr double kSlack = 1.2;  // of the corners of slabs: levels bend round the balls of arcs
+
   // The level at which a part is a limb: slender by itself and no corner, or a bump that is no wider than
   // what carries it.
   std::optional<PartLevel> limb_level(const SlenderPart& part) const {
-    constexpr double kSlack = 1.2;  // levels bend round the balls of arcs
     const PartLevel& own = part.slenderest;
     if (own.depth > 0 && own.slenderness() >= uncovered_slenderness(options_) &&
         !is_slab_corner(own.depth, own.depth_over_mouth(), own.slenderness(), 2 * carrier_[part.top], kSlack))
@@ -134,7 +135,6 @@ class LimbCompletion {
   // On an input few triangles are all that there is, so they tell as much as the many of other limbs; on a
   // coarser surface they are what coarsening left. The corner of a slab has a mouth as thin as that.
   std::optional<PartLevel> twig_level(const SlenderPart& part) const {
-    constexpr double kSlack = 1.1;
     if (!inner_.is_input() || part.slenderest_of_few.depth == 0) return std::nullopt;
     const auto is_corner = [&](const PartLevel& level) {
       return is_slab_corner(level.depth, level.depth_over_mouth(), level.slenderness(),
