@@ -30,7 +30,7 @@ CASES = [
     ("outside", ["heptoroid"], ["--no-refine"]),
     ("failed", ["torus"], ["--mode", "thesis", "--no-keep-topology", "--bare-edges", "saturation", "--saturation", "100"]),
     ("too_large", ["quadruped"], ["--smallest", "0.08"]),
-    ("too_small", ["quadruped", "--jitter", "0.3"], ["--smallest", "0", "--detail", "5"]),
+    ("too_small", ["quadruped", "--jitter", "0.3", "--resolution", "20000"], ["--smallest", "0", "--detail", "20", "--no-coarsen"]),
 ]
 CASE_PICTURE = ["--views", "1", "--width", "320", "--height", "240", "--line-width", "4"]
 
