@@ -10,6 +10,14 @@
 namespace mspskel {
 namespace detail {
 
+// Half of the area of each component: a part that has more is the body.
+inline std::vector<double> half_areas_of_components(const SurfaceSnapshot& surface) {
+  std::vector<double> half(static_cast<std::size_t>(surface.component_count), 0.0);
+  for (Index v = 0; v < surface.vertex_count(); ++v)
+    if (surface.vertex_halfedge[v] != kNone) half[surface.component[v]] += 0.5 * surface.vertex_area[v];
+  return half;
+}
+
 // Parts begin at the maxima of the distance, grow as it falls, and meet at saddles, where the one with the
 // higher top takes the other: how long a part is on its own is the persistence of its maximum. Notes is what
 // the caller knows of a part. Only the given vertices count.

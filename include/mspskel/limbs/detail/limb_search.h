@@ -36,13 +36,9 @@ class LimbTipSearch {
         slices_(slices),
         options_(options),
         distance_(distance),
-        half_area_(static_cast<std::size_t>(surface.component_count), 0.0),
+        half_area_(half_areas_of_components(surface)),
         walked_(surface.position.size(), 0),
-        flooded_(surface.position.size(), 0) {
-    for (Index v = 0; v < surface.vertex_count(); ++v)
-      if (surface.vertex_halfedge[v] != kNone)
-        half_area_[surface.component[v]] += 0.5 * surface.vertex_area[v];
-  }
+        flooded_(surface.position.size(), 0) {}
 
   std::vector<FoundLimb> run() {
     std::vector<Index> reached, place(surface_.position.size(), kNone);
@@ -175,18 +171,21 @@ class LimbTipSearch {
       perimeter += surface_.vertex_area[v] * slices_.perimeter[v];
     }
     if (!(perimeter > 0)) return std::nullopt;
-    const std::vector<double> chords = half_chords(part);
+    const std::vector<double> chords = half_chords(some_of(part));
     m.half_chord = value_at_rank(chords, 0.5);
     m.half_thickness = value_at_rank(chords, 0.25);
     const PartShape shape = sum.shape(distance_[top]);
+    const PartLevel cut{m.depth, shape.area, shape.mouth};
     m.half_width = shape.area / (2 * kPi * m.depth);
-    m.slenderness = 2 * kPi * m.depth * m.depth / shape.area;
+    m.slenderness = cut.slenderness();
     m.mean_depth = shape.mean_depth / m.depth;
-    m.depth_over_mouth = 2 * kPi * m.depth / shape.mouth;
+    m.depth_over_mouth = cut.depth_over_mouth();
     const double reach = std::max(2 * m.half_width, options_.smallest);
     const std::vector<Index> carrier = surface_beside(round, found.root, reach);
-    m.carrier_half_chord = mean_half_chord(carrier);
-    m.carrier_half_thickness = value_at_rank(half_chords(carrier), 0.25);
+    const std::vector<Index> beside = some_of(carrier);
+    const std::vector<double> carrier_chords = half_chords(beside);
+    m.carrier_half_chord = mean_of_logarithms(beside, carrier_chords);
+    m.carrier_half_thickness = value_at_rank(carrier_chords, 0.25);
     m.msp_ratio = std::max(1.0, mean_perimeter(carrier) * sliced / perimeter);
     // A spike that noise or a slit leaves on something thick is no twig, however thin it is.
     if (!(m.depth > kLeastTipDepth * own_smallest(m.carrier_half_chord))) return std::nullopt;
@@ -286,21 +285,27 @@ class LimbTipSearch {
     return round;
   }
 
-  std::vector<double> half_chords(const std::vector<Index>& vertices) const {
+  // As many as tell their chords well enough.
+  static std::vector<Index> some_of(const std::vector<Index>& vertices) {
     constexpr std::size_t kChords = 64;
-    std::vector<double> chords;
+    std::vector<Index> some;
     for (std::size_t i = 0; i < vertices.size(); i += 1 + vertices.size() / kChords)
-      chords.push_back(half_chord(surface_, solid_, vertices[i]));
+      some.push_back(vertices[i]);
+    return some;
+  }
+
+  std::vector<double> half_chords(const std::vector<Index>& vertices) const {
+    std::vector<double> chords;
+    for (const Index v : vertices) chords.push_back(half_chord(surface_, solid_, v));
     return chords;
   }
 
-  double mean_half_chord(const std::vector<Index>& vertices) const {
-    constexpr std::size_t kChords = 64;
+  // Of positive values at the vertices, by their areas.
+  double mean_of_logarithms(const std::vector<Index>& vertices, const std::vector<double>& values) const {
     double sum = 0, area = 0;
-    for (std::size_t i = 0; i < vertices.size(); i += 1 + vertices.size() / kChords) {
-      const double c = half_chord(surface_, solid_, vertices[i]);
-      if (!(c > 0)) continue;
-      sum += surface_.vertex_area[vertices[i]] * std::log(c);
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      if (!(values[i] > 0)) continue;
+      sum += surface_.vertex_area[vertices[i]] * std::log(values[i]);
       area += surface_.vertex_area[vertices[i]];
     }
     return area > 0 ? std::exp(sum / area) : 0.0;

@@ -29,22 +29,17 @@ struct SlenderPart {
   Index top;             // where it reaches farthest
   PartLevel slenderest;  // for its area; of no depth where it never is of enough vertices to tell
   PartLevel narrowest;   // for its mouth; the same where it never is less than half of its component
-  // The same of the levels at which it has few vertices, where no other evidence is asked for.
+  // The same of the levels at which it has few vertices, where no other evidence is asked for; if asked for.
   PartLevel slenderest_of_few, narrowest_of_few;
 };
 
-inline std::vector<double> half_areas_of_components(const SurfaceSnapshot& surface) {
-  std::vector<double> half(static_cast<std::size_t>(surface.component_count), 0.0);
-  for (Index v = 0; v < surface.vertex_count(); ++v)
-    if (surface.vertex_halfedge[v] != kNone) half[surface.component[v]] += 0.5 * surface.vertex_area[v];
-  return half;
-}
-
 // The parts of the given vertices that grow from the maxima of the distance until a farther one takes them,
-// as they are where they are deeper than least_depth(vertex). In no particular order.
+// as they are where they are deeper than least_depth(vertex); with `few` also at the levels of few vertices.
+// In no particular order.
 template <class LeastDepth>
 std::vector<SlenderPart> slender_parts(const SurfaceSnapshot& surface, const std::vector<double>& distance,
-                                       std::vector<Index> vertices, LeastDepth least_depth) {
+                                       std::vector<Index> vertices, LeastDepth least_depth,
+                                       bool few = false) {
   struct Notes {
     LevelSum sum;
     Index vertices = 0;
@@ -62,7 +57,7 @@ std::vector<SlenderPart> slender_parts(const SurfaceSnapshot& surface, const std
   };
   const auto measure_few = [&](typename Parts::Part& part, Index v) {
     Notes& notes = part.notes;
-    if (notes.vertices >= kLeastEvidence) return;
+    if (!few || notes.vertices >= kLeastEvidence) return;
     PartLevel level = notes.sum.at(distance[v], distance[part.top]);
     if (!(level.depth > least_depth(part.top)) || !(level.area > 1e-12 * level.depth) || !(level.mouth > 0) ||
         level.area > half_area[surface.component[v]])

@@ -135,7 +135,7 @@ class LimbCompletion {
   // On an input few triangles are all that there is, so they tell as much as the many of other limbs; on a
   // coarser surface they are what coarsening left. The corner of a slab has a mouth as thin as that.
   std::optional<PartLevel> twig_level(const SlenderPart& part) const {
-    if (!inner_.is_input() || part.slenderest_of_few.depth == 0) return std::nullopt;
+    if (part.slenderest_of_few.depth == 0) return std::nullopt;
     const auto is_corner = [&](const PartLevel& level) {
       return is_slab_corner(level.depth, level.depth_over_mouth(), level.slenderness(),
                             level.mouth_thickness(), kSlack);
@@ -157,7 +157,8 @@ class LimbCompletion {
     const double usual = kLeastProtrusion * LimbOptions().smallest;
     const auto least_depth = [&](Index v) { return least * std::min(1.0, 2 * carrier_[v] / usual); };
     std::vector<LimbTip> limbs;
-    for (const SlenderPart& part : slender_parts(surface_, outside_, std::move(beyond), least_depth))
+    for (const SlenderPart& part :
+         slender_parts(surface_, outside_, std::move(beyond), least_depth, inner_.is_input()))
       if (const std::optional<PartLevel> level = limb_level(part)) limbs.push_back(new_tip(part.top, *level));
     std::sort(limbs.begin(), limbs.end(), [](const LimbTip& a, const LimbTip& b) {
       return a.measures.depth != b.measures.depth ? a.measures.depth > b.measures.depth : a.vertex < b.vertex;

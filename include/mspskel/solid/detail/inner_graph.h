@@ -61,9 +61,9 @@ inline std::vector<Gate> find_gates(const SurfaceSnapshot& surface) {
 enum class InnerSurface { kInput, kCoarser };
 
 // Paths along the mesh's graph with every vertex moved to the middle of its inward chord, and through the
-// gates of an input. Nothing is computed
-// before prepare(), and distances to the surface only where a path comes by: many meshes need no path at all.
-// Any surface within the solid will do: no vertex of it goes in or out.
+// gates of an input. Nothing is computed before prepare(), and distances to the surface only where a path
+// comes by: many meshes need no path at all. Any surface within the solid will do: no vertex of it goes in or
+// out.
 class InnerPaths {
  public:
   InnerPaths(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
