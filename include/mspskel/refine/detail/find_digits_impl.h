@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "mspskel/arcs/detail/polyline_ends.h"
 #include "mspskel/base/linkage.h"
 #include "mspskel/limbs/detail/growing_parts.h"
 #include "mspskel/limbs/detail/part_level.h"
@@ -26,17 +27,76 @@ struct Palm {
   double reach = 0.0;                // along the arc to its tip
 };
 
-// On a leaf arc's points from its joint to its tip; nothing on short ones.
+// Where the palm lies before the tip, in smallest features.
+constexpr double kNearestPalm = 4.0, kFarthestPalm = 12.0;
+
+// Such a way to the tip of a leaf arc, of the given length or longer where the graph has as much. Beyond a
+// joint it is that of the arc that leads there most straightly: whether other digits have arcs already is
+// nothing to the palm.
+class WayToTip {
+ public:
+  WayToTip(const ArcGraph& graph, const BoundingVolumeHierarchy& solid)
+      : graph_(graph), solid_(solid), at_(graph.incidence()) {}
+
+  std::vector<Vector3> operator()(const LeafArc& leaf, double length) const {
+    std::vector<Vector3> way = leaf_points(graph_, leaf);
+    std::reverse(way.begin(), way.end());  // from the tip
+    double walked = length_of(way);
+    std::vector<Index> arcs{leaf.arc};
+    for (Index hub = leaf.joint; walked < length;) {
+      const Index arc = straight_on(way, hub, arcs);
+      if (arc == kNone) break;
+      arcs.push_back(arc);
+      const std::vector<Vector3> next = from_hub(arc, hub);
+      walked += length_of(next);
+      way.insert(way.end(), next.begin() + 1, next.end());
+      hub = graph_.arcs[arc].hub[graph_.arcs[arc].hub[0] == hub ? 1 : 0];
+    }
+    std::reverse(way.begin(), way.end());
+    return way;
+  }
+
+ private:
+  static double length_of(const std::vector<Vector3>& points) { return arc_length({{0, 1}, points, true}); }
+  std::vector<Vector3> from_hub(Index arc, Index hub) const {
+    return points_from(graph_.arcs[arc], graph_.arcs[arc].hub[0] == hub ? 0 : 1);
+  }
+
+  // The arc at a hub that goes on where a way to it leads, by the directions over the joint's ball; kNone
+  // where the way has come by all of them.
+  Index straight_on(const std::vector<Vector3>& way, Index hub, const std::vector<Index>& taken) const {
+    const Vector3& joint = graph_.hub_position[hub];
+    const double radius = solid_.distance(joint);
+    const Vector3 along = joint - point_before_end(way, radius);
+    Index best = kNone;
+    double straightest = 0;
+    for (const Index arc : at_[hub]) {
+      if (std::find(taken.begin(), taken.end(), arc) != taken.end()) continue;
+      std::vector<Vector3> next = from_hub(arc, hub);
+      std::reverse(next.begin(), next.end());
+      const double straight = along.dot((point_before_end(next, radius) - joint).normalized());
+      if (best != kNone && straight <= straightest) continue;
+      best = arc;
+      straightest = straight;
+    }
+    return best;
+  }
+
+  const ArcGraph& graph_;
+  const BoundingVolumeHierarchy& solid_;
+  const std::vector<std::vector<Index>> at_;
+};
+
+// On the points of a way to a tip; nothing on short ones.
 inline std::optional<Palm> find_palm(const std::vector<Vector3>& points, const BoundingVolumeHierarchy& solid,
                                      const LimbOptions& options) {
-  constexpr double kNearest = 4.0, kFarthest = 12.0;  // before the tip, in smallest features
   Palm palm;
   std::size_t at = 0;
   double walked = 0;
   for (std::size_t i = points.size() - 1; i > 0; --i) {
     walked += (points[i] - points[i - 1]).norm();
-    if (walked > kFarthest * options.smallest) break;
-    if (walked < kNearest * options.smallest) continue;
+    if (walked > kFarthestPalm * options.smallest) break;
+    if (walked < kNearestPalm * options.smallest) continue;
     const double radius = solid.distance(points[i - 1]);
     if (radius <= palm.radius) continue;
     palm.centre = points[i - 1];
@@ -228,12 +288,14 @@ MSPSKEL_INLINE std::vector<Digit> find_digits(const ArcGraph& graph, const Surfa
                                               const BoundingVolumeHierarchy& solid,
                                               const LimbOptions& options, const Execution& execution) {
   const std::vector<detail::LeafArc> leaves = detail::ArcLeaves(graph, graph.incidence()).leaf;
+  const detail::WayToTip way_to_tip(graph, solid);
   std::vector<std::vector<Digit>> found(leaves.size());
   parallel_for(
       static_cast<Index>(leaves.size()), "digits", execution,
       [&] { return detail::DigitSearch(surface, solid, options); },
       [&](Index i, detail::DigitSearch& search) {
-        const auto palm = detail::find_palm(detail::leaf_points(graph, leaves[i]), solid, options);
+        const auto palm = detail::find_palm(way_to_tip(leaves[i], detail::kFarthestPalm * options.smallest),
+                                            solid, options);
         if (!palm) return;
         const Index face = solid.closest(graph.hub_position[leaves[i].tip]).face;
         if (face == kNone || face >= surface.face_count()) return;  // it ends at the wall of a cavity
