@@ -8,7 +8,6 @@
 #include <optional>
 #include <vector>
 
-#include "mspskel/base/value_at_rank.h"
 #include "mspskel/extract_skeleton.h"
 #include "mspskel/solid/detail/inward_chord.h"
 
@@ -23,12 +22,29 @@ inline std::optional<double> limb_half_width(const SurfaceSnapshot& surface,
                                              const BoundingVolumeHierarchy& solid, Index v) {
   const auto chord = inward_chord(surface, solid, v);
   if (!chord) return std::nullopt;
-  const Vector3 inward = -surface.normal[v].normalized(), across = inward.unitOrthogonal();
+  const Vector3 inward = -surface.normal[v].normalized();
+  // Along an edge, so that the rays turn with the model.
+  const Vector3 edge = surface.position[surface.target(surface.vertex_halfedge[v])] - surface.position[v];
+  Vector3 across = edge - edge.dot(inward) * inward;
+  if (!(across.norm() > 0)) across = inward.unitOrthogonal();
+  across.normalize();
   std::array<double, 8> ray;
   solid.ray_fan(chord->start + 0.5 * chord->length * inward, across, inward.cross(across),
                 static_cast<int>(ray.size()), ray.data());
   std::nth_element(ray.begin(), ray.begin() + 2, ray.end());
   return std::max(0.5 * chord->length, ray[2]);
+}
+
+// The second thinnest of a hundred, about: the mean of the logarithms of those round it, since a single one
+// moves with noise and with the triangles.
+inline double thinnest_of(std::vector<double> widths) {
+  constexpr double kFirst = 0.01, kLast = 0.04;
+  std::sort(widths.begin(), widths.end());
+  const auto count = static_cast<double>(widths.size());
+  const auto first = static_cast<std::size_t>(kFirst * count), last = static_cast<std::size_t>(kLast * count);
+  double logarithms = 0;
+  for (std::size_t i = first; i <= last; ++i) logarithms += std::log(widths[i]);
+  return std::exp(logarithms / static_cast<double>(last - first + 1));
 }
 
 struct WidthDemand {
@@ -40,7 +56,7 @@ struct WidthDemand {
 // than the next. About ten vertices go round a tube. Cost: O(vertices) and 600 fans.
 inline WidthDemand demand_of_width(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid) {
   constexpr int kPlaces = 600;
-  constexpr double kEdge = 0.85, kThinnest = 0.02;
+  constexpr double kEdge = 0.85;
   const double total = std::accumulate(surface.vertex_area.begin(), surface.vertex_area.end(), 0.0);
   std::vector<double> widths;
   double passed = 0;
@@ -54,7 +70,7 @@ inline WidthDemand demand_of_width(const SurfaceSnapshot& surface, const Boundin
   }
   WidthDemand demand;
   if (widths.empty()) return demand;
-  demand.thinnest = value_at_rank(widths, kThinnest);
+  demand.thinnest = thinnest_of(widths);
   double sum = 0;
   for (const double width : widths) sum += 1 / std::pow(std::max(width, demand.thinnest), 2);
   // A vertex stands for two equilateral triangles.
