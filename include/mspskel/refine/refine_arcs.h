@@ -45,6 +45,7 @@ struct RefinementCounts {
   Index joints_merged = 0;
   Index completed = 0;  // arcs added for limbs that had none
   Index zips = 0;       // pairs of arcs joined from their joint to where they part
+  Index corners = 0;    // that rounded arcs got
   RoutingResult routing;
   ClassRouting classes;
 };

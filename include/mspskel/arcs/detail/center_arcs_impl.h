@@ -257,7 +257,7 @@ MSPSKEL_INLINE VisibleSection visible_section(const BoundingVolumeHierarchy& sol
   solid.ray_fan(x, u, w, rays, r.data());
   VisibleSection section;
   section.clearance = *std::min_element(r.begin(), r.begin() + rays);
-  double area = 0, perimeter = 0, sum_u = 0, sum_w = 0;
+  double area = 0, perimeter = 0, sum = 0, sum_u = 0, sum_w = 0;
   detail::RegionMoments moments;
   const std::vector<Vector2>& direction = even_directions(rays);
   const double cos_turn = direction[1].x(), sin_turn = direction[1].y();
@@ -269,6 +269,7 @@ MSPSKEL_INLINE VisibleSection visible_section(const BoundingVolumeHierarchy& sol
     moments.add(at_u, at_w, next_u, next_w);
     at_u = next_u;
     at_w = next_w;
+    sum += r[i];
     sum_u += next_u;
     sum_w += next_w;
     area += 0.5 * r[i] * s * sin_turn;
@@ -277,6 +278,7 @@ MSPSKEL_INLINE VisibleSection visible_section(const BoundingVolumeHierarchy& sol
   section.closed = true;
   section.centre = x + 2.0 / rays * (sum_u * u + sum_w * w);
   section.radius = std::sqrt(area / kPi);
+  section.mean_ray = sum / rays;
   section.half_width = moments.half_width();
   const detail::RegionMoments::Axes axes = moments.axes();
   section.wide = std::cos(axes.angle) * u + std::sin(axes.angle) * w;

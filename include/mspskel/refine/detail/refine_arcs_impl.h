@@ -4,6 +4,7 @@
 
 #include "mspskel/arcs/limit_nodes.h"
 #include "mspskel/arcs/merge_joints.h"
+#include "mspskel/arcs/sharpen_corners.h"
 #include "mspskel/arcs/tighten_walls.h"
 #include "mspskel/base/linkage.h"
 #include "mspskel/refine/aim_ends.h"
@@ -64,6 +65,7 @@ class ArcRefinement {
     tighten(shells);
     lay();  // straight again: in a block every wall is as near, and centring goes where the noise leads
     lay_paths(shells);
+    sharpen();
     subdivide(graph_, 1.25 * options_.centering.step);  // rounds of centring stretch some edges
     // What no way was found for, the later stages may have led inside all the same.
     if (counts_.routing.unroutable > 0) counts_.routing.unroutable = count_crossing_edges(graph_, solid_);
@@ -145,6 +147,10 @@ class ArcRefinement {
   void zip() {
     counts_.zips += zip_arcs(graph_, surface_, solid_, options_.zip, classes_.crossings, execution_);
     keep_type("zipping");
+  }
+  void sharpen() {
+    counts_.corners = sharpen_corners(graph_, solid_, execution_, classes_.crossings);
+    keep_type("sharpening of corners");
   }
   void complete() {
     counts_.completed =

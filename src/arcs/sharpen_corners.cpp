@@ -1,0 +1,3 @@
+#include "mspskel/arcs/sharpen_corners.h"
+
+#include "mspskel/arcs/detail/sharpen_corners_impl.h"
