@@ -89,6 +89,23 @@ TEST_CASE("A hand has as many digits as fingers") {
   }
 }
 
+TEST_CASE("Digits are found beside others that have arcs already") {
+  const BallGraph graph = figure(5);
+  const Solid solid(to_mesh(skin_graph(graph, 18000)));
+  const ArcGraph bare = without_fingers(solid, graph);
+  const std::vector<Digit> digits = find_digits(bare, solid.surface, solid.hierarchy, {});
+  REQUIRE(digits.size() == 5);
+  for (std::size_t first = 0; first < 5; ++first)
+    for (std::size_t second = first + 1; second < 5; ++second) {
+      CAPTURE(first, second);
+      ArcGraph arcs = bare;
+      // The arm's own arc is led on into one of the two, so there is a joint in the palm.
+      reach_digits(arcs, solid.surface, solid.hierarchy, {digits[first], digits[second]}, 0.008, 1.0);
+      REQUIRE(joint_count(arcs) == 2);
+      CHECK(find_digits(arcs, solid.surface, solid.hierarchy, {}).size() == 5);
+    }
+}
+
 TEST_CASE("Digits of a rounded mesh have vertices and a way, if there are any") {
   const BallGraph graph = figure(5);
   const DefaultMesh mesh = to_mesh(skin_graph(graph, 8000));

@@ -5,6 +5,7 @@
 
 #include "mspskel/mesh/build_mesh.h"
 #include "mspskel/repair/mend_soup.h"
+#include "mspskel/samples/samples.h"
 #include "support/soups.h"
 #include "topology/voxel_solids.h"
 
@@ -45,4 +46,31 @@ TEST_CASE("the surface of a voxel block of many faces has no gates") {
   for (int x = 0; x < 4; ++x)
     for (int y = 0; y < 3; ++y) solid.cells.insert({x, y, 0});
   CHECK(detail::find_gates(make_snapshot(build_mesh(boundary(solid)))).empty());
+}
+
+// Chords from the rim of a disc all have their middles in the middle of the disc.
+TEST_CASE("the way from a leg to the middle of a round plate is not by the rim") {
+  SampleOptions options;
+  options.count = 4;
+  options.ratio = 0.6;
+  options.section = Section::kRound;
+  const CurveSkeleton truth = sample_truth("table", options);
+  const SurfaceSnapshot surface = make_snapshot(build_mesh(make_sample("table", options)));
+  const BoundingVolumeHierarchy solid(surface);
+  detail::InnerPaths paths(surface, solid);
+  paths.prepare();
+  // The middle of the plate is the first node; from it arcs lead to the tops of the legs, and on down.
+  const auto [top, foot] = truth.edges.back();
+  const Vector3 middle = truth.nodes[0].position;
+  const Vector3 in_leg = 0.5 * (truth.nodes[top].position + truth.nodes[foot].position);
+  REQUIRE((truth.nodes[top].position - middle).norm() > 1);
+  std::vector<Vector3> way;
+  REQUIRE(paths.path(surface.frame.to_normalised(in_leg), surface.frame.to_normalised(middle), way));
+  way.insert(way.begin(), surface.frame.to_normalised(in_leg));
+  way.push_back(surface.frame.to_normalised(middle));
+  double length = 0;
+  for (std::size_t i = 1; i < way.size(); ++i) length += surface.frame.scale * (way[i] - way[i - 1]).norm();
+  const double shortest =
+      (truth.nodes[top].position - middle).norm() + (truth.nodes[top].position - in_leg).norm();
+  CHECK(length < 1.2 * shortest);
 }
