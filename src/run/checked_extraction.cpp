@@ -44,13 +44,20 @@ void extract_from_input(const RunOptions& run, CertificateDepth depth, CheckedEx
   certify(run, depth, made);
 }
 
+bool crosses_itself(const CheckedExtraction& made, CertificateDepth depth, const Execution& execution) {
+  if (depth == CertificateDepth::kFull) return made.certificate.self_intersecting;
+  const ExtractResult& result = made.result;
+  const SolidHierarchies solids(result.surface, *result.solid, execution.progress);
+  return certify(result.surface, result.cocycles, solids, result.skeleton, CertificateDepth::kFull, execution)
+      .self_intersecting;
+}
+
 // Where a surface that crosses itself, or that rounding has crushed, carries no skeleton. A wrap has no open
 // ends any more, and is no better than another wrap.
-bool may_be_wrapped(const CheckedExtraction& made, const RunOptions& run) {
-  const TopologyCertificate& of = made.certificate;
-  return run.repair.wrap_mode == WrapMode::kAuto && !made.failure.empty() &&
-         (of.self_intersecting || of.inside < least_inside(run)) && !made.input.wrapped &&
-         made.input.repair.openings.empty();
+bool may_be_wrapped(const CheckedExtraction& made, const RunOptions& run, CertificateDepth depth) {
+  return run.repair.wrap_mode == WrapMode::kAuto && !made.failure.empty() && !made.input.wrapped &&
+         made.input.repair.openings.empty() &&
+         (made.certificate.inside < least_inside(run) || crosses_itself(made, depth, run.extract.execution));
 }
 
 }  // namespace
@@ -62,7 +69,7 @@ CheckedExtraction extract_checked(const PolygonSoup& soup, MeshInput&& input, co
   CheckedExtraction made;
   made.input = std::move(input);
   extract_from_input(run, depth, made);
-  if (!may_be_wrapped(made, run)) return made;
+  if (!may_be_wrapped(made, run, depth)) return made;
   CheckedExtraction again;
   again.input = wrap_mesh(soup, run.repair, run.extract.execution);
   extract_from_input(run, depth, again);

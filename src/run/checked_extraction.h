@@ -23,9 +23,10 @@ struct CheckedExtraction {
 
 // The skeleton of an input that was prepared from the soup, with its certificate. It ends at the open ends of
 // the input; the input's warnings come first among the result's. Where too much of it is outside
-// (RunOptions::least_inside), the surface does not say where its solid is: limbs that rounding has pressed
-// flat, sheets folded through each other. Then the soup is wrapped, unless the settings decide otherwise, and
-// the wrap's skeleton is taken if it passes. Throws as extract_skeleton and prepare_mesh do.
+// (RunOptions::least_inside), or its topology fails on a surface that crosses itself, the surface does not
+// say where its solid is: limbs that rounding has pressed flat, sheets folded through each other. Then the
+// soup is wrapped, unless the settings decide otherwise, and the wrap's skeleton is taken if it passes.
+// Throws as extract_skeleton and prepare_mesh do.
 CheckedExtraction extract_checked(const PolygonSoup& soup, MeshInput&& input, const RunOptions& run,
                                   CertificateDepth depth);
 

@@ -1,5 +1,6 @@
 """The certificate decides about the exit status, and says what is wrong and where, in both commands."""
 import json
+import math
 import unittest
 
 from program import DONE, NO_SKELETON, SOURCE, TETRAHEDRON, ProgramTest
@@ -118,6 +119,28 @@ class Extract(ProgramTest):
     def test_keep_failed_changes_nothing_else(self):
         mesh = self.sample()
         self.assertEqual(self.succeed(mesh, "-"), self.succeed(mesh, "-", "--keep-failed"))
+
+
+class Folded(ProgramTest):
+    """Two linked rings, folded so that they cross themselves and each other."""
+
+    def folded(self):
+        lines = (self.folder / self.sample("hopf-link", 1200)).read_text().split("\n")
+        count = int(lines[1].split()[0])
+        points = [[float(x) for x in line.split()] for line in lines[2:2 + count]]
+        extent = max(p[0] for p in points) - min(p[0] for p in points)
+        folded = [f"{0.3 * extent * math.sin(6 * x / extent):.9g} {y:.9g} {z:.9g}" for x, y, z in points]
+        return self.write("folded.off", "\n".join([*lines[:2], *folded, *lines[2 + count:]]))
+
+    def test_is_wrapped_whether_or_not_anyone_asks_for_a_report(self):
+        mesh = self.folded()
+        made = self.run_program(mesh, "a.skel", "--report", "r.json")
+        self.assertEqual(made.returncode, DONE, made.stderr)
+        self.assertIn(b"of the mesh's own surface, the skeleton's topology is not the solid's", made.stderr)
+        plain = self.run_program(mesh, "b.skel")
+        self.assertEqual(plain.returncode, DONE, plain.stderr)
+        self.assertEqual((self.folder / "a.skel").read_bytes(), (self.folder / "b.skel").read_bytes())
+        self.assertEqual(self.run_program(mesh, "c.skel", "--wrap", "never").returncode, NO_SKELETON)
 
 
 class Crushed(ProgramTest):
