@@ -300,28 +300,29 @@ class InnerPaths {
     landmarks_.build(node_count(), goal, [&](Index v, auto visit) { for_each_edge(v, visit); });
   }
 
-  // The nearest inner points that x sees. Where chords from far away have their middles, as those from the
-  // rim of a disc have in the middle of the disc, the ways to their vertices are none to x: these points
-  // count where x sees no others.
+  // The nearest inner points that x sees, and as many of those near the middle. Where chords from far away
+  // have their middles, as those from the rim of a disc have in the middle of the disc, the ways to their
+  // vertices are long ones.
   std::vector<std::pair<double, Index>> entries(const Vector3& x) {
     constexpr std::size_t kWanted = 8;
-    std::vector<std::pair<double, Index>> seen, far;
+    std::vector<std::pair<double, Index>> near, far;
     for (const std::size_t tried : {64, 1024}) {
+      near.clear();
       far.clear();
       for (const auto& entry : nearest_points(x, tried)) {
-        if (seen.size() >= kWanted) break;
-        const Index v = entry.second;
-        std::vector<std::pair<double, Index>>& kept = is_near_middle(v) ? seen : far;
-        if (kept.size() < kWanted && !solid_.segment_crosses(x, point_[v])) kept.push_back(entry);
+        if (near.size() >= kWanted) break;
+        std::vector<std::pair<double, Index>>& kept = is_near_middle(entry.second) ? near : far;
+        if (kept.size() < kWanted && !solid_.segment_crosses(x, point_[entry.second])) kept.push_back(entry);
       }
-      if (!seen.empty() || far.empty()) break;
+      if (!near.empty() || far.empty()) break;
     }
-    return seen.empty() ? far : seen;
+    near.insert(near.end(), far.begin(), far.end());
+    return near;
   }
 
   // Whether half of the chord is not much longer than the way from its middle to the surface.
   bool is_near_middle(Index v) {
-    constexpr double kMuch = 2;
+    constexpr double kMuch = 4;
     return v >= surface_.vertex_count() || (point_[v] - surface_.position[v]).norm() <= kMuch * clearance(v);
   }
 
