@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -41,13 +42,16 @@ std::optional<std::array<Vector3, 2>> passage(const SurfaceSnapshot& surface, co
 class Crossings {
  public:
   Crossings(const SurfaceSnapshot& surface, const std::vector<Shell>& shells)
-      : surface_(surface), shells_(shells), all_(surface), groups_(static_cast<Index>(shells.size())) {}
+      : surface_(surface), shells_(shells), groups_(static_cast<Index>(shells.size())) {}
 
   void run(const ProgressCallback& progress) {
-    for (Index c = 0; c < static_cast<Index>(shells_.size()); ++c) {
-      report_progress(progress, "shells", static_cast<double>(c) / static_cast<double>(shells_.size()));
-      if (alone(c)) continue;
-      for (const Index f : shells_[c].faces) pass_through(f, c);
+    const std::vector<Index> near = faces_near_others(progress);
+    if (near.empty()) return;
+    near_.emplace(surface_, near, progress);
+    for (std::size_t i = 0; i < near.size(); ++i) {
+      if (i % 1024 == 0)
+        report_progress(progress, "shells", static_cast<double>(i) / static_cast<double>(near.size()));
+      pass_through(near[i]);
     }
     for (const auto& [c, d] : meetings_) {
       report_progress(progress, "shells", 1.0);
@@ -65,17 +69,36 @@ class Crossings {
   }
 
  private:
-  bool alone(Index c) const {
-    for (Index d = 0; d < static_cast<Index>(shells_.size()); ++d)
-      if (d != c && boxes_meet(shells_[c].low, shells_[c].high, shells_[d])) return false;
-    return true;
+  // The faces whose box meets the box of what other shells' boxes share with that of their own: where no
+  // other shell is, none passes through.
+  std::vector<Index> faces_near_others(const ProgressCallback& progress) const {
+    std::vector<Index> near;
+    for (std::size_t c = 0; c < shells_.size(); ++c) {
+      report_progress(progress, "shells", static_cast<double>(c) / static_cast<double>(shells_.size()));
+      const Shell& own = shells_[c];
+      Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+      for (std::size_t d = 0; d < shells_.size(); ++d) {
+        if (d == c || !boxes_meet(own.low, own.high, shells_[d])) continue;
+        low = low.cwiseMin(own.low.cwiseMax(shells_[d].low));
+        high = high.cwiseMax(own.high.cwiseMin(shells_[d].high));
+      }
+      for (const Index f : own.faces) {
+        const Vector3 &p = corner(f, 0), &q = corner(f, 1), &r = corner(f, 2);
+        if ((p.cwiseMin(q).cwiseMin(r).array() <= high.array()).all() &&
+            (p.cwiseMax(q).cwiseMax(r).array() >= low.array()).all())
+          near.push_back(f);
+      }
+    }
+    return near;
   }
+  const Vector3& corner(Index f, Index k) const { return surface_.position[surface_.origin[3 * f + k]]; }
 
-  void pass_through(Index f, Index c) {
+  void pass_through(Index f) {
+    const Index c = surface_.component[surface_.origin[3 * f]];
     for (Index h = 3 * f; h < 3 * f + 3; ++h) {
       if (h > surface_.twin[h]) continue;
       const Vector3 &p = surface_.position[surface_.origin[h]], &q = surface_.position[surface_.target(h)];
-      all_.for_each_in_box(p.cwiseMin(q), p.cwiseMax(q), [&](Index g) {
+      near_->for_each_in_box(p.cwiseMin(q), p.cwiseMax(q), [&](Index g) {
         const Index d = surface_.component[surface_.origin[3 * g]];
         if (d == c || groups_.root(c) == groups_.root(d)) return true;
         const auto points = passage(surface_, p, q, kSteps * least_depth(c, d), g);
@@ -107,7 +130,7 @@ class Crossings {
 
   const SurfaceSnapshot& surface_;
   const std::vector<Shell>& shells_;
-  BoundingVolumeHierarchy all_;
+  std::optional<BoundingVolumeHierarchy> near_;  // of the faces near other shells
   DisjointSets groups_;
   std::set<std::pair<Index, Index>> meetings_;  // pairs with an edge through a face, not deep
   std::map<Index, BoundingVolumeHierarchy> solids_;

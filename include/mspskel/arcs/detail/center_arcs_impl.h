@@ -292,8 +292,12 @@ MSPSKEL_INLINE void center_arcs(ArcGraph& graph, const BoundingVolumeHierarchy& 
                                 const CrossingLabels& crossings, const std::vector<Index>& held) {
   validate(options);
   std::vector<double> step(graph.arcs.size(), options.step);
-  for (std::size_t a = 0; a < step.size(); ++a)
-    if (graph.arcs[a].alive) step[a] = detail::own_step(graph.arcs[a], solid, options.step);
+  parallel_for(
+      graph.arc_count(), "arcs", execution, [] { return 0; },
+      [&](Index a, int) {
+        if (graph.arcs[a].alive) step[a] = detail::own_step(graph.arcs[a], solid, options.step);
+      },
+      1);
   const auto resample = [&] {
     parallel_for(
         graph.arc_count(), "arcs", execution, [] { return 0; },

@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <memory>
 #include <optional>
-#include <unordered_map>
-#include <utility>
+#include <vector>
 
 #include "mspskel/collapse/crossing_labels.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
@@ -16,7 +17,8 @@ namespace mspskel {
 namespace detail {
 
 // Points inside the solid for each vertex of the surface: the middle of its inward chord, and one just below
-// the surface. Found when first asked for.
+// the surface. Found when first asked for, by any thread: two that ask at once find the same, and the first
+// one's stays.
 //
 // Labels of ways begin at the vertex where cocycles are regions. A linking number cannot: its loop may pass
 // through the vertex. It begins at the point just below, and is carried from vertex to vertex by the straight
@@ -32,7 +34,7 @@ class ChordPoints {
 
   ChordPoints(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
               const CrossingLabels& crossings)
-      : surface_(surface), solid_(solid), crossings_(crossings) {}
+      : surface_(surface), solid_(solid), crossings_(crossings), below_(surface.position.size()) {}
 
   // The label's entries whose cocycles are regions, or the other ones.
   CocycleLabel part(const CocycleLabel& label, bool of_regions) const {
@@ -42,45 +44,66 @@ class ChordPoints {
     return result;
   }
   // Of the straight way from the vertex, which x sees.
-  CocycleLabel from_vertex(Index v, const Vector3& x) {
+  CocycleLabel from_vertex(Index v, const Vector3& x) const {
     const Vector3& position = surface_.position[v];
     const CocycleLabel label = crossings_(position, x);
     if (!crossings_.has_loops()) return label;
     return part(label, true) + part(crossings_(base(v), x), false);
   }
   // Linking numbers of the step along the half-edge below the surface.
-  CocycleLabel below(Index h) {
+  CocycleLabel below(Index h) const {
     return part(crossings_(base(surface_.origin[h]), base(surface_.target(h))), false);
   }
 
   // Whether that step has its ends below the surface and stays inside.
-  bool stays_below(Index h) {
+  bool stays_below(Index h) const {
     const Point &a = (*this)(surface_.origin[h], kShallow), &b = (*this)(surface_.target(h), kShallow);
     return a.clearance > 0 && b.clearance > 0 && !solid_.segment_crosses(a.x, b.x);
   }
 
-  const Point& operator()(Index v, Layer layer) {
-    Below& at = below_.try_emplace(v).first->second;
-    std::optional<Point>& known = at.point[layer];
-    if (known) return *known;
-    if (!at.looked && surface_.vertex_halfedge[v] != kNone) at.chord = inward_chord(surface_, solid_, v);
-    at.looked = true;
-    Point point;
-    point.x = surface_.position[v];
-    if (at.chord) place(v, layer, *at.chord, point);
-    known = std::move(point);
-    return *known;
+  const Point& operator()(Index v, Layer layer) const {
+    return below_[v].point[layer].get([&] {
+      Point point;
+      point.x = surface_.position[v];
+      if (const std::optional<InwardChord>& chord = chord_of(v)) place(v, layer, *chord, point);
+      return point;
+    });
   }
 
  private:
+  // A value that is found when first asked for.
+  template <class T>
+  class Once {
+   public:
+    Once() = default;
+    Once(const Once&) = delete;
+    Once& operator=(const Once&) = delete;
+    ~Once() { delete known_.load(); }
+    template <class Find>
+    const T& get(Find find) const {
+      if (const T* known = known_.load(std::memory_order_acquire)) return *known;
+      auto found = std::make_unique<const T>(find());
+      const T* first = nullptr;
+      return known_.compare_exchange_strong(first, found.get()) ? *found.release() : *first;
+    }
+
+   private:
+    mutable std::atomic<const T*> known_{nullptr};
+  };
   // What is known of a vertex.
   struct Below {
-    bool looked = false;  // for its chord
-    std::optional<InwardChord> chord;
-    std::array<std::optional<Point>, 2> point;  // by layer
+    Once<std::optional<InwardChord>> chord;
+    std::array<Once<Point>, 2> point;  // by layer
   };
 
-  void place(Index v, Layer layer, const InwardChord& chord, Point& point) {
+  const std::optional<InwardChord>& chord_of(Index v) const {
+    return below_[v].chord.get([&]() -> std::optional<InwardChord> {
+      if (surface_.vertex_halfedge[v] == kNone) return std::nullopt;
+      return inward_chord(surface_, solid_, v);
+    });
+  }
+
+  void place(Index v, Layer layer, const InwardChord& chord, Point& point) const {
     constexpr double kShallowShare = 0.05, kOfEdge = 0.02;
     const Vector3& position = surface_.position[v];
     double depth = 0.5 * chord.length;
@@ -98,7 +121,7 @@ class ChordPoints {
     else
       point.from_vertex = part(crossings_(position, point.x), true);
   }
-  Vector3 base(Index v) {
+  Vector3 base(Index v) const {
     const Point& shallow = (*this)(v, kShallow);
     return shallow.clearance > 0 ? shallow.x : surface_.position[v];
   }
@@ -106,7 +129,7 @@ class ChordPoints {
   const SurfaceSnapshot& surface_;
   const BoundingVolumeHierarchy& solid_;
   const CrossingLabels& crossings_;
-  std::unordered_map<Index, Below> below_;  // each stays where it is while others come in
+  std::vector<Below> below_;  // per vertex
 };
 
 }  // namespace detail

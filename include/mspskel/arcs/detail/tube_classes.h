@@ -13,7 +13,7 @@ class TubeClasses {
  public:
   // Cost: O(vertices), and a step below the surface a half-edge where some cocycle is a linking number.
   TubeClasses(const CollapseTubes& tubes, const SurfaceSnapshot& surface, const CrossingLabels& crossings,
-              ChordPoints& points)
+              const ChordPoints& points)
       : tubes_(tubes), surface_(surface), points_(points) {
     index_nodes();
     if (crossings.has_loops()) find_potential();
@@ -99,7 +99,7 @@ class TubeClasses {
 
   const CollapseTubes& tubes_;
   const SurfaceSnapshot& surface_;
-  ChordPoints& points_;
+  const ChordPoints& points_;
   std::vector<Index> begin_, vertices_;  // of each node
   std::vector<CocycleLabel> potential_;  // per vertex; empty where all cocycles are regions
 };

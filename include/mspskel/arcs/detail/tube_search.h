@@ -29,7 +29,6 @@ struct SettledHubs {
 // Searches for the ways of several arcs, one after the other; one object a thread.
 class TubeSearch {
  public:
-  // Cost: a copy of the points.
   TubeSearch(const CollapseTubes& tubes, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
              const CrossingLabels& crossings, const TubeClasses& classes, const SettledHubs& hubs,
              const ChordPoints& points, const Execution& execution)
@@ -100,8 +99,8 @@ class TubeSearch {
   }
 
   // Whether a straight step between two points has the class of the edge.
-  bool step_keeps_class(const State& from, const State& to, Index h) {
-    const ChordPoints::Point a = points_(from.vertex, from.layer), b = points_(to.vertex, to.layer);
+  bool step_keeps_class(const State& from, const State& to, Index h) const {
+    const ChordPoints::Point &a = points_(from.vertex, from.layer), &b = points_(to.vertex, to.layer);
     const CocycleLabel edge = h == kNone ? CocycleLabel{} : classes_.along_halfedge(h);
     return a.from_vertex + crossings_(a.x, b.x) == edge + b.from_vertex;
   }
@@ -167,7 +166,7 @@ class TubeSearch {
   }
 
   void expand(const ArcTube& tube, const State& from, double cost, bool outside) {
-    const ChordPoints::Point here = points_(from.vertex, from.layer);
+    const ChordPoints::Point& here = points_(from.vertex, from.layer);
     const std::int64_t before = key(from);
     const auto step = [&](const State& to, Index h) {
       const auto known = records_.find(key(to));
@@ -203,7 +202,7 @@ class TubeSearch {
   const CrossingLabels& crossings_;
   const TubeClasses& classes_;
   const SettledHubs& hubs_;
-  ChordPoints points_;
+  const ChordPoints& points_;
   const Execution& execution_;
   std::unordered_map<std::int64_t, Record> records_;
   std::priority_queue<Step, std::vector<Step>, std::greater<>> queue_;

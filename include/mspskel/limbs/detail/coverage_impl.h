@@ -51,11 +51,12 @@ MSPSKEL_INLINE std::vector<UncoveredPart> find_uncovered_parts(const SurfaceSnap
   const std::vector<detail::BallTree> balls = detail::balls_of_nodes(surface, solids, skeleton, execution);
   std::vector<double> outside(surface.position.size(), 0.0);
   parallel_for(
-      surface.vertex_count(), "coverage", execution, [] { return 0; },
-      [&](Index v, int) {
+      surface.vertex_count(), "coverage", execution,
+      [&] { return std::vector<std::size_t>(balls.size(), 0); },
+      [&](Index v, std::vector<std::size_t>& near) {
         if (surface.vertex_halfedge[v] == kNone) return;
-        const detail::BallTree& own = balls[surface.component[v]];
-        if (!own.empty()) outside[v] = own.nearest(surface.position[v]).distance;
+        const Index c = surface.component[v];
+        if (!balls[c].empty()) outside[v] = balls[c].distance_outside(surface.position[v], near[c]);
       });
 
   std::vector<Index> beyond;

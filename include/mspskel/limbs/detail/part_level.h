@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "mspskel/mesh/surface_snapshot.h"
 
@@ -49,50 +51,43 @@ struct LevelSum {
   }
 };
 
-// What a triangle adds once 0, 1, 2 or 3 of its corners lie beyond the level. Where two corners are as far,
-// it stays until both of them are beyond.
-class TriangleLevels {
- public:
-  TriangleLevels(const SurfaceSnapshot& surface, const std::vector<double>& distance,
-                 std::array<Index, 3> corner)
-      : corner_(corner) {
-    std::sort(corner_.begin(), corner_.end(), [&](Index a, Index b) {
-      return distance[a] != distance[b] ? distance[a] > distance[b] : a < b;
-    });
-    constexpr double kLeastFall = 1e-6;  // nearly level triangles would leave rounding errors behind
-    const double high = distance[corner_[0]], middle = distance[corner_[1]], low = distance[corner_[2]];
-    const Vector3& a = surface.position[corner_[0]];
-    const Vector3 to_middle = surface.position[corner_[1]] - a, to_low = surface.position[corner_[2]] - a;
-    const double area = 0.5 * to_middle.cross(to_low).norm();
-    // The contour through the middle corner, and the parts of the area on both sides of it.
-    const double share = high - low > kLeastFall ? (high - middle) / (high - low) : 0.0;
-    const double length = (to_middle - share * to_low).norm();
-    if (high - middle > kLeastFall) beyond_[1] = tapered(share * area, length, high, middle);
-    beyond_[2] = beyond_[1];
-    if (middle - low > kLeastFall) {
-      beyond_[2] = LevelSum{}.add(tapered((1 - share) * area, length, low, middle), -1);
-      for (double& m : beyond_[2].mouth) m = -m;
-      beyond_[2].area[0] += area;
-    }
-    beyond_[3].area[0] = area;
-  }
+// Of a triangle with that area and that base, as far as it lies between the levels of its tip and its base.
+inline LevelSum tapered_sum(double area, double length, double tip, double base) {
+  const double fall = base - tip, whole = area / (fall * fall), rim = length / fall;
+  return {{whole * tip * tip, -2 * whole * tip, whole}, {-rim * tip, rim}};
+}
 
-  // What changes once the corner v lies beyond the level, after those that are farther.
-  LevelSum change(Index v) const {
-    const auto k = static_cast<std::size_t>(std::find(corner_.begin(), corner_.end(), v) - corner_.begin());
-    return LevelSum(beyond_[k + 1]).add(beyond_[k], -1);
+// What a triangle's sum changes by once its corner v lies beyond the level, after those that are farther.
+// Where two corners are as far, it stays until both of them are beyond.
+inline LevelSum change_in_triangle(const SurfaceSnapshot& surface, const std::vector<double>& distance,
+                                   std::array<Index, 3> corner, Index v) {
+  const auto farther_first = [&](Index& a, Index& b) {
+    if (distance[b] > distance[a] || (distance[b] == distance[a] && b < a)) std::swap(a, b);
+  };
+  farther_first(corner[0], corner[1]);
+  farther_first(corner[1], corner[2]);
+  farther_first(corner[0], corner[1]);
+  constexpr double kLeastFall = 1e-6;  // nearly level triangles would leave rounding errors behind
+  const double high = distance[corner[0]], middle = distance[corner[1]], low = distance[corner[2]];
+  const Vector3& a = surface.position[corner[0]];
+  const Vector3 to_middle = surface.position[corner[1]] - a, to_low = surface.position[corner[2]] - a;
+  const double area = 0.5 * to_middle.cross(to_low).norm();
+  // The contour through the middle corner, and the parts of the area on both sides of it.
+  const double share = high - low > kLeastFall ? (high - middle) / (high - low) : 0.0;
+  const double length = (to_middle - share * to_low).norm();
+  const bool falls_to_middle = high - middle > kLeastFall, falls_to_low = middle - low > kLeastFall;
+  LevelSum one, two;  // with so many corners beyond
+  if (falls_to_middle && (v != corner[2] || !falls_to_low))
+    one = two = tapered_sum(share * area, length, high, middle);
+  if (v == corner[0]) return one;
+  if (falls_to_low) {
+    two = LevelSum{}.add(tapered_sum((1 - share) * area, length, low, middle), -1);
+    for (double& m : two.mouth) m = -m;
+    two.area[0] += area;
   }
-
- private:
-  // Between the level of a tip and that of the base of a triangle.
-  static LevelSum tapered(double area, double length, double tip, double base) {
-    const double fall = base - tip, whole = area / (fall * fall), rim = length / fall;
-    return {{whole * tip * tip, -2 * whole * tip, whole}, {-rim * tip, rim}};
-  }
-
-  std::array<Index, 3> corner_;  // the farthest first
-  std::array<LevelSum, 4> beyond_;
-};
+  if (v == corner[1]) return two.add(one, -1);
+  return LevelSum{{area, 0, 0}, {}}.add(two, -1);
+}
 
 // What the sum of a part changes by once a vertex of it lies beyond the level.
 inline LevelSum change_at(const SurfaceSnapshot& surface, const std::vector<double>& distance, Index v) {
@@ -100,7 +95,7 @@ inline LevelSum change_at(const SurfaceSnapshot& surface, const std::vector<doub
   const Index first = surface.vertex_halfedge[v];
   Index h = first;
   do {
-    change.add(TriangleLevels(surface, distance, {v, surface.target(h), surface.apex(h)}).change(v));
+    change.add(change_in_triangle(surface, distance, {v, surface.target(h), surface.apex(h)}, v));
     h = surface.next_outgoing(h);
   } while (h != first);
   return change;

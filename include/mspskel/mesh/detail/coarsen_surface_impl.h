@@ -37,9 +37,7 @@ MSPSKEL_AVX_CLONES inline void cheapest_edges(CollapsingSurface& mesh, Index tar
   edges.clear();
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {
     if (!mesh.is_edge(h)) continue;
-    double& cost = mesh.cost(h);
-    if (cost == CollapsingSurface::kStale) cost = mesh.evaluate(h);
-    if (cost < CollapsingSurface::kBlocked) edges.emplace_back(cost, h);
+    if (const double cost = mesh.cost(h); std::isfinite(cost)) edges.emplace_back(cost, h);
   }
   const auto share = static_cast<std::size_t>(of_edges * static_cast<double>(edges.size()));
   const std::size_t wanted = std::min(edges.size(), std::max(share, kLeast));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <vector>
@@ -26,20 +27,17 @@ struct MergedRing {
 
 enum class CollapseOutcome { kDone, kRefusedTopology, kRefusedShape };
 
-// The layout is SurfaceSnapshot's; a dead face has origin kNone. Half-edges of an edge share one cost, stored
-// at the smaller one.
+// The layout is SurfaceSnapshot's; a dead face has origin kNone.
 class CollapsingSurface {
  public:
-  static constexpr double kStale = -1, kBlocked = std::numeric_limits<double>::infinity();
-
   CollapsingSurface(const SurfaceSnapshot& input, const CoarseningOptions& options);
 
   Index vertex_count() const { return live_vertices_; }
   Index halfedge_count() const { return static_cast<Index>(origin_.size()); }
   bool is_edge(Index h) const { return origin_[h] != kNone && h < twin_[h]; }
 
-  double& cost(Index h) { return cost_[std::min(h, twin_[h])]; }
-  double evaluate(Index h) const;
+  // Of the edge's collapse; infinite as long as it is blocked.
+  double cost(Index h);
   double edge_length(Index h) const { return (position_[origin_[h]] - position_[origin_[twin_[h]]]).norm(); }
 
   void start_pass() { std::fill(moved_.begin(), moved_.end(), 0); }
@@ -51,6 +49,16 @@ class CollapsingSurface {
   void finish(CoarseSurface& result);
 
  private:
+  // Half-edges of an edge share one cost, stored at the smaller one. One that is blocked has its sign turned.
+  static constexpr double kStale = -std::numeric_limits<double>::infinity();
+
+  double& stored_cost(Index h) { return cost_[std::min(h, twin_[h])]; }
+  void block(Index h) { stored_cost(h) = -stored_cost(h); }
+  void unblock(Index h) {
+    double& cost = stored_cost(h);
+    if (cost != kStale) cost = std::abs(cost);
+  }
+  double evaluate(Index h) const;
   static Index next(Index h) { return SurfaceSnapshot::next(h); }
   static Index prev(Index h) { return SurfaceSnapshot::prev(h); }
   void gather(Index h, MergedRing& ring) const;
@@ -124,13 +132,19 @@ inline CollapsingSurface::CollapsingSurface(const SurfaceSnapshot& input, const 
   }
 }
 
+inline double CollapsingSurface::cost(Index h) {
+  double& cost = stored_cost(h);
+  if (cost == kStale) cost = evaluate(h);
+  return std::signbit(cost) ? std::numeric_limits<double>::infinity() : cost;
+}
+
 inline double CollapsingSurface::evaluate(Index h) const {
   const Index a = origin_[h], b = origin_[next(h)];
   Quadric q = quadric_[a];
   q += quadric_[b];
   const Vector3 middle = 0.5 * (position_[a] + position_[b]);
   const double error = q(q.least_point(middle));
-  return std::max(error, 0.0) * ties_.factor(middle);  // below zero by rounding only
+  return std::abs(std::max(error, 0.0)) * ties_.factor(middle);  // below zero by rounding only
 }
 
 inline void CollapsingSurface::gather(Index h, MergedRing& ring) const {
@@ -232,16 +246,16 @@ inline void CollapsingSurface::remove_face(Index h) {
 
 // Merges the origin of h into its target, where permitted; blocks the edge otherwise.
 MSPSKEL_AVX_CLONES inline CollapseOutcome CollapsingSurface::collapse(Index h) {
-  if (!permits_counts(h)) return cost(h) = kBlocked, CollapseOutcome::kRefusedTopology;
+  if (!permits_counts(h)) return block(h), CollapseOutcome::kRefusedTopology;
   MergedRing ring;
   gather(h, ring);
-  if (!permits_link(ring)) return cost(h) = kBlocked, CollapseOutcome::kRefusedTopology;
+  if (!permits_link(ring)) return block(h), CollapseOutcome::kRefusedTopology;
   const Index a = origin_[h], b = origin_[next(h)], o = twin_[h];
   Quadric q = quadric_[a];
   q += quadric_[b];
   const Vector3 p = q.least_point(0.5 * (position_[a] + position_[b]));
   std::array<Vector3, MergedRing::kCapacity> normal;
-  if (!permits_shape(h, ring, p, normal)) return cost(h) = kBlocked, CollapseOutcome::kRefusedShape;
+  if (!permits_shape(h, ring, p, normal)) return block(h), CollapseOutcome::kRefusedShape;
 
   position_[b] = p;
   quadric_[b] = q;
@@ -255,8 +269,8 @@ MSPSKEL_AVX_CLONES inline CollapseOutcome CollapsingSurface::collapse(Index h) {
   remove_face(o);
   for (Index i = 0; i < ring.size; ++i) {
     face_normal_[ring.outgoing[i] / 3] = normal[i];
-    cost(ring.outgoing[i]) = kStale;
-    cost(next(ring.outgoing[i])) = kStale;  // its cost is the same, but it may have been blocked by this one
+    stored_cost(ring.outgoing[i]) = kStale;
+    unblock(next(ring.outgoing[i]));  // its cost is the same, but it may have been blocked by this one
   }
   return CollapseOutcome::kDone;
 }

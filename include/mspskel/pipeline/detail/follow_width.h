@@ -54,20 +54,26 @@ struct WidthDemand {
 
 // From places at equal steps of the area. The thinnest fiftieth of them, where walls touch, counts no more
 // than the next. About ten vertices go round a tube. Cost: O(vertices) and 600 fans.
-inline WidthDemand demand_of_width(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid) {
+inline WidthDemand demand_of_width(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
+                                   const Execution& execution) {
   constexpr int kPlaces = 600;
   constexpr double kEdge = 0.85;
   const double total = std::accumulate(surface.vertex_area.begin(), surface.vertex_area.end(), 0.0);
-  std::vector<double> widths;
+  std::vector<Index> places;
   double passed = 0;
   int taken = 0;
   for (Index v = 0; v < surface.vertex_count(); ++v) {
     passed += surface.vertex_area[v];
     if (passed * kPlaces < total * (taken + 0.5)) continue;
     taken = static_cast<int>(std::floor(passed * kPlaces / total + 0.5));
-    const std::optional<double> width = limb_half_width(surface, solid, v);
-    if (width && *width > 0) widths.push_back(*width);
+    places.push_back(v);
   }
+  std::vector<double> widths(places.size());
+  parallel_for(
+      static_cast<Index>(places.size()), "coarsening", execution, [] { return 0; },
+      [&](Index i, int) { widths[i] = limb_half_width(surface, solid, places[i]).value_or(0.0); });
+  widths.erase(std::remove_if(widths.begin(), widths.end(), [](double width) { return !(width > 0); }),
+               widths.end());
   WidthDemand demand;
   if (widths.empty()) return demand;
   demand.thinnest = thinnest_of(widths);
@@ -83,7 +89,7 @@ inline WidthDemand demand_of_width(const SurfaceSnapshot& surface, const Boundin
 // thinnest limbs are wide by half.
 inline ExtractOptions following_width(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
                                       ExtractOptions options) {
-  const WidthDemand demand = demand_of_width(surface, solid);
+  const WidthDemand demand = demand_of_width(surface, solid, options.execution);
   const double least = options.coarsening.vertices;
   const double steps = std::ceil(2 * std::log2(demand.vertices / least));
   if (!(steps > 0)) return options;

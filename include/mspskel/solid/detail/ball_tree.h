@@ -28,13 +28,26 @@ class BallTree {
 
   // The ball that x is least outside of. O(log balls) where few are near.
   Nearest nearest(const Vector3& x) const {
-    Nearest best;
-    if (!balls_.empty()) search(0, 0, balls_.size(), x, best);
-    return best;
+    Best best;
+    if (!balls_.empty()) search(0, 0, balls_.size(), bounds_[0].distance_outside(x), x, best);
+    return {best.distance, balls_.empty() ? 0.0 : balls_[best.ball].radius};
   }
-  double distance_outside(const Vector3& x) const { return nearest(x).distance; }
+  // Its distance. Good for many points that follow each other: `near`, at first 0, is the ball of the point
+  // before.
+  double distance_outside(const Vector3& x, std::size_t& near) const {
+    Best best;
+    if (balls_.empty()) return best.distance;
+    best = {balls_[near].distance_outside(x), near};
+    search(0, 0, balls_.size(), bounds_[0].distance_outside(x), x, best);
+    near = best.ball;
+    return best.distance;
+  }
 
  private:
+  struct Best {
+    double distance = std::numeric_limits<double>::infinity();
+    std::size_t ball = 0;
+  };
   struct Bounds {
     Vector3 low, high;  // of the centres
     double radius;      // the largest
@@ -65,22 +78,25 @@ class BallTree {
     build(2 * at + 2, middle, end);
   }
 
-  void search(std::size_t at, std::size_t begin, std::size_t end, const Vector3& x, Nearest& best) const {
-    if (bounds_[at].distance_outside(x) >= best.distance) return;
+  // `outside`: how far x is outside the bounds.
+  void search(std::size_t at, std::size_t begin, std::size_t end, double outside, const Vector3& x,
+              Best& best) const {
+    if (outside >= best.distance) return;
     if (end - begin <= kLeaf) {
       for (std::size_t i = begin; i < end; ++i) {
         const double distance = balls_[i].distance_outside(x);
-        if (distance < best.distance) best = {distance, balls_[i].radius};
+        if (distance < best.distance) best = {distance, i};
       }
       return;
     }
     const std::size_t middle = begin + (end - begin) / 2, left = 2 * at + 1, right = left + 1;
-    const bool left_first = bounds_[left].distance_outside(x) <= bounds_[right].distance_outside(x);
-    for (const bool goes_left : {left_first, !left_first}) {
-      if (goes_left)
-        search(left, begin, middle, x, best);
-      else
-        search(right, middle, end, x, best);
+    const double of_left = bounds_[left].distance_outside(x), of_right = bounds_[right].distance_outside(x);
+    if (of_left <= of_right) {
+      search(left, begin, middle, of_left, x, best);
+      search(right, middle, end, of_right, x, best);
+    } else {
+      search(right, middle, end, of_right, x, best);
+      search(left, begin, middle, of_left, x, best);
     }
   }
 
