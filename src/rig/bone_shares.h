@@ -24,10 +24,6 @@ struct BoneShare {
 
 // 0 at 0, 1 at 1, level at both; at most 1.5 times as steep as its argument.
 inline double smooth_share(double t) { return t * t * (3 - 2 * t); }
-// The t in [0, 1] that has this weight: a root of the cubic by the trisected angle.
-inline double share_of_weight(double weight) {
-  return 0.5 - std::sin(std::asin(std::clamp(1 - 2 * weight, -1.0, 1.0)) / 3);
-}
 
 // Per joint whether another hangs on it: an end turns nothing.
 std::vector<char> turning_joints(const Rig& rig);

@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <queue>
+#include <unordered_map>
 #include <utility>
+
+#include "turned_face.h"
 
 namespace mspskel::detail {
 namespace {
@@ -14,229 +16,252 @@ namespace {
 // shares where they are steepest; 0.87 would turn over a face that lies along the slope.
 constexpr double kSteepest = 0.6;
 
-// Over faces weights are lowered by steps of this at least, so that it ends.
-constexpr double kLeastStep = 1e-4;
+// A face that turns over keeps half of its edges' changes, and none that are less than this, so that it ends.
+constexpr double kLeastChange = 1e-3;
 
 class Slopes {
  public:
-  // Only of the joints for which `asked` is not 0.
-  Slopes(const SurfaceSnapshot& surface, const Rig& rig, const std::vector<BoneShare>& shares,
-         std::vector<char> asked)
+  Slopes(const SurfaceSnapshot& surface, const Rig& rig, const std::vector<BoneShare>& shares)
       : surface_(surface),
-        rig_(rig),
-        shares_(shares),
-        asked_(std::move(asked)),
+        count_(static_cast<Index>(rig.joints.size())),
+        ways_(rig, shares),
         steep_(rig.joints.size()),
-        steep_faces_(rig.joints.size()),
-        lowered_(surface.vertex_count(), kUnchanged),
-        blunt_(surface.face_count(), kUnknown) {
+        most_(rig.joints.size()),
+        changed_(rig.joints.size()),
+        is_changed_(surface.vertex_count(), 0),
+        last_look_(surface.face_count(), 0) {
     for (const RigJoint& joint : rig.joints) at_.push_back(surface.frame.to_normalised(joint.position));
-    const std::size_t count = rig.joints.size();
-    hangs_on_.assign(count, std::vector<char>(count, 0));
-    for (std::size_t j = 0; j < count; ++j)
-      for (Index up = rig.joints[j].parent; up != kNone; up = rig.joints[up].parent) hangs_on_[up][j] = 1;
+    note_steep();
   }
 
-  std::vector<LowerShare> lower_all() {
-    note_steep();
-    const Index count = static_cast<Index>(steep_.size());
-    std::vector<std::size_t> begin(count, 0), end(count, 0);
-    for (Index j = 1; j < count; ++j) {
-      begin[j] = found_.size();
-      const Index above = rig_.joints[j].parent;
-      lower(j, begin[above], end[above], 1.0);
-      end[j] = found_.size();
-    }
-    return by_vertex();
+  JointWays lower_all() {
+    lower_along_edges();
+    rank_joints();
+    keep_sides();
+    return std::move(ways_);
   }
-
-  std::vector<Index> find_idle(const std::vector<Index>& joints) {
-    note_steep();
-    std::vector<Index> following(steep_.size(), 0);
-    for (const BoneShare& share : shares_)
-      for (Index j = share.joint; j != kNone; j = rig_.joints[j].parent)
-        if (asked_[j] && (j != share.joint || share.share >= kHalf)) ++following[j];
-    std::vector<Index> idle;
-    for (const Index j : joints) {
-      found_.clear();
-      lower(j, 0, 0, kHalf);
-      for (const LowerShare& lower : found_)
-        if (lower.share < kHalf && share(lower.vertex, j) >= kHalf) --following[j];
-      if (following[j] == 0) idle.push_back(j);
-    }
-    return idle;
+  // Whether a vertex follows one of the joints by half or more, as far as edges tell.
+  bool is_one_followed(const std::vector<char>& joints) {
+    lower_along_edges();
+    for (Index v = 0; v < surface_.vertex_count(); ++v)
+      for (Index j = ways_.of_map(v).joint; j != kNone; j = ways_.above(j))
+        if (joints[j] && ways_.at(v, j) >= 0.5) return true;
+    return false;
   }
 
  private:
-  static constexpr double kUnchanged = 2, kHalf = 0.5;
-  static constexpr Index kUnknown = kNone - 1;
-
-  // Where shares change by too much, per joint.
-  void note_steep() {
-    for (Index f = 0; f < surface_.face_count(); ++f) {
-      const auto at = [&](Index k) { return shares_[surface_.origin[3 * f + k]]; };
-      if (at(0) == at(1) && at(1) == at(2)) continue;
-      for (Index h = 3 * f; h < 3 * f + 3; ++h)
-        if (!(shares_[surface_.origin[h]] == shares_[surface_.target(h)])) note(h);
-      if (const Index h = blunt_halfedge(f); h != kNone) note_face(h);
+  void lower_along_edges() {
+    for (Index j = 1; j < count_; ++j) {
+      for (const Index h : steep_[j]) along_edge(h, ways_.at(surface_.origin[h], j), j);
+      spread_below(j);
     }
   }
-  // They were found joint by joint.
-  std::vector<LowerShare> by_vertex() const {
-    std::vector<std::size_t> place(surface_.vertex_count() + 1, 0);
-    for (const LowerShare& lower : found_) ++place[lower.vertex + 1];
-    for (std::size_t v = 1; v < place.size(); ++v) place[v] += place[v - 1];
-    std::vector<LowerShare> sorted(found_.size());
-    for (const LowerShare& lower : found_) sorted[place[lower.vertex]++] = lower;
-    return sorted;
+  // Where shares change by too much along edges, per joint.
+  void note_steep() {
+    for (Index h = 0; h < surface_.halfedge_count(); ++h) {
+      const Index v = surface_.origin[h], w = surface_.target(h);
+      const BoneShare &low = ways_.of_map(v), &high = ways_.of_map(w);
+      if (low == high) continue;
+      for (Index j = high.joint; j > 0; j = ways_.above(j)) {
+        const double rise = (j == high.joint ? high.share : 1.0) - ways_.at(v, j);
+        if (rise > 0 && rise > most_change(h, j)) steep_[j].push_back(h);
+        if (j == low.joint) break;
+      }
+    }
   }
   double most_change(Index h, Index joint) const {
     const Vector3 &a = surface_.position[surface_.origin[h]], &b = surface_.position[surface_.target(h)];
     const double length = (b - a).norm(), far = (0.5 * (a + b) - at_[joint]).norm();
-    return kSteepest * length / std::max(far, 0.5 * length);
+    const double most = kSteepest * length / std::max(far, 0.5 * length);
+    if (most_[joint].empty()) return most;
+    const auto kept = most_[joint].find(edge(h));
+    return kept == most_[joint].end() ? most : std::min(most, kept->second);
   }
-  double share(Index v, Index joint) const {
-    const BoneShare& s = shares_[v];
-    if (s.joint == joint) return s.share;
-    return hangs_on_[joint][s.joint];
+  Index edge(Index h) const { return std::min(h, surface_.twin[h]); }
+  void lower(Index v, Index joint, double share) {
+    ways_.lower(v, joint, share);
+    spread_from(v, share, joint);
   }
-  // Whether the face is wider than a right angle opposite the half-edge. In others no slope is more than 1.41
-  // times those of the edges.
-  bool is_blunt(Index h) const {
-    const Vector3& x = surface_.position[surface_.apex(h)];
-    return (surface_.position[surface_.origin[h]] - x).dot(surface_.position[surface_.target(h)] - x) < 0;
+  void spread_from(Index v, double share, Index joint) {
+    queue_.push_back({share, v});
+    std::push_heap(queue_.begin(), queue_.end(), std::greater<Item>());
+    if (!is_changed_[v]) changed_[joint].push_back(v);
+    is_changed_[v] = 1;
   }
-  // The half-edge opposite the face's wide angle; kNone: there is none.
-  Index blunt_halfedge(Index f) {
-    if (blunt_[f] == kUnknown) {
-      blunt_[f] = kNone;
-      for (Index h = 3 * f; h < 3 * f + 3; ++h)
-        if (is_blunt(h)) blunt_[f] = h;
-    }
-    return blunt_[f];
+  void along_edge(Index h, double here, Index joint) {
+    const Index w = surface_.target(h);
+    const double there = ways_.at(w, joint);
+    if (there <= here) return;
+    const Vector3 &a = surface_.position[surface_.origin[h]], &b = surface_.position[w];
+    const double rise = there - here, square = (b - a).squaredNorm();
+    const double far = std::max((0.5 * (a + b) - at_[joint]).squaredNorm(), 0.25 * square);
+    if (most_[joint].empty() && kSteepest * kSteepest * square >= rise * rise * far) return;
+    if (const double most = here + most_change(h, joint); most < there) lower(w, joint, most);
   }
-  // At the foot of the wide corner on the edge opposite, which lies between the edge's ends.
-  struct Foot {
-    double along = 0;  // share of the way from the half-edge's origin to its target
-    double most = 0;   // by which weights may differ between foot and corner
-    double between(double from, double to) const { return (1 - along) * from + along * to; }
-  };
-  Foot foot_of(Index h, Index joint) const {
-    const Vector3 &p = surface_.position[surface_.origin[h]], &q = surface_.position[surface_.target(h)],
-                  &x = surface_.position[surface_.apex(h)];
-    const double length = (q - p).norm(), far = ((p + q + x) / 3 - at_[joint]).norm();
-    const double along = (x - p).dot(q - p) / (length * length);
-    return {along, 1.5 * kSteepest * (p + along * (q - p) - x).norm() / std::max(far, 0.5 * length)};
-  }
-  // Keeps the face, whose wide angle is opposite the half-edge, with each joint whose share changes over it
-  // by too much.
-  void note_face(Index h) {
-    const std::array<Index, 3> corner{surface_.origin[h], surface_.target(h), surface_.apex(h)};
-    for (const Index v : corner)
-      for (Index j = shares_[v].joint; j > 0; j = rig_.joints[j].parent) {
-        if (!asked_[j]) continue;
-        std::array<double, 3> has{};
-        for (int k = 0; k < 3; ++k) has[k] = share(corner[k], j);
-        if (has[0] == has[1] && has[1] == has[2]) break;
-        const Foot foot = foot_of(h, j);
-        if (std::abs(foot.between(smooth_share(has[0]), smooth_share(has[1])) - smooth_share(has[2])) >
-            foot.most + kLeastStep)
-          steep_faces_[j].push_back(h);
-      }
-  }
-  // Keeps the half-edge with each joint whose share rises along it by too much.
-  void note(Index h) {
-    const BoneShare &low = shares_[surface_.origin[h]], &high = shares_[surface_.target(h)];
-    for (Index j = high.joint; j > 0; j = rig_.joints[j].parent) {
-      const double rise = (j == high.joint ? high.share : 1.0) - share(surface_.origin[h], j);
-      if (asked_[j] && rise > 0 && rise > most_change(h, j)) steep_[j].push_back(h);
-      if (j == low.joint) return;
-    }
-  }
-  // From the feet of what is too steep, the lowest first, as far as shares are below `until`. A vertex
-  // follows no joint more than the one that it hangs on, whose lower shares are found_[begin] to found_[end -
-  // 1].
-  void lower(Index joint, std::size_t begin, std::size_t end, double until) {
-    using Item = std::pair<double, Index>;
-    std::priority_queue<Item, std::vector<Item>, std::greater<Item>> queue;
-    const auto present = [&](Index v) { return std::min(lowered_[v], share(v, joint)); };
-    const auto lower_to = [&](Index w, double most) {
-      if (lowered_[w] == kUnchanged) touched_.push_back(w);
-      lowered_[w] = most;
-      queue.push({most, w});
-    };
-    const auto along_edge = [&](Index h, double here) {
-      const Index w = surface_.target(h);
-      const double there = present(w);
-      if (there <= here) return;
-      if (const double most = here + most_change(h, joint); most < there) lower_to(w, most);
-    };
-    // What weighs too much over a face with a wide corner is lowered: the corner to what the edge opposite
-    // has at its foot, or the edge's ends to what makes the foot fit the corner, the higher end first.
-    const auto over_face = [&](Index h) {
-      if (h == kNone) return;
-      const Index from = surface_.origin[h], to = surface_.target(h), corner = surface_.apex(h);
-      const double p = smooth_share(present(from)), q = smooth_share(present(to)),
-                   x = smooth_share(present(corner));
-      if (p == x && q == x) return;
-      const Foot foot = foot_of(h, joint);
-      const double at_foot = foot.between(p, q), high = x + foot.most;
-      if (x > at_foot + foot.most + kLeastStep) lower_to(corner, share_of_weight(at_foot + foot.most));
-      if (at_foot <= high + kLeastStep) return;
-      const double t = foot.along;
-      if (p > high) lower_to(from, share_of_weight(q >= high ? high : (high - t * q) / (1 - t)));
-      if (q > high) lower_to(to, share_of_weight(p >= high ? high : (high - (1 - t) * p) / t));
-    };
-    for (std::size_t i = begin; i < end; ++i)
-      if (share(found_[i].vertex, joint) > found_[i].share) lower_to(found_[i].vertex, found_[i].share);
-    for (const Index h : steep_[joint]) along_edge(h, present(surface_.origin[h]));
-    for (const Index h : steep_faces_[joint]) over_face(h);
-    while (!queue.empty()) {
-      const auto [here, v] = queue.top();
-      queue.pop();
-      if (here >= until) break;
-      if (here > lowered_[v]) continue;
+  // From what is queued, the lowest first.
+  void spread(Index joint) {
+    while (!queue_.empty()) {
+      std::pop_heap(queue_.begin(), queue_.end(), std::greater<Item>());
+      const auto [here, v] = queue_.back();
+      queue_.pop_back();
+      if (here > ways_.at(v, joint)) continue;
       Index h = surface_.vertex_halfedge[v];
       const Index first = h;
       do {
-        along_edge(h, here);
-        over_face(blunt_halfedge(h / 3));
+        along_edge(h, here, joint);
         h = surface_.next_outgoing(h);
       } while (h != first);
     }
-    for (const Index v : touched_) {
-      found_.push_back({v, joint, lowered_[v]});
-      lowered_[v] = kUnchanged;
+    for (const Index v : changed_[joint]) is_changed_[v] = 0;
+  }
+  // A vertex follows no joint more than the one that it hangs on.
+  void spread_below(Index joint) {
+    for (const Index v : changed_[ways_.above(joint)])
+      if (const double most = ways_.at(v, ways_.above(joint)); most < ways_.at(v, joint))
+        lower(v, joint, most);
+    spread(joint);
+  }
+
+  // Until each vertex follows four joints or fewer and no face turns over: of the joints that a vertex has
+  // more, the one with the shortest bone has nothing of its own; the edges of a face that turns over keep
+  // half of their changes. Each lowers shares by a least step, so it ends.
+  void keep_sides() {
+    std::vector<std::vector<Index>> from(count_);
+    for (Index v = 0; v < surface_.vertex_count(); ++v)
+      if (ways_.is_lowered(v)) keep_four(v, from);
+    for (Index f = 0; f < surface_.face_count(); ++f) halve_turned(f, from);
+    for (bool is_kept = false; !is_kept;) {
+      is_kept = true;
+      for (Index j = 1; j < count_; ++j) {
+        changed_[j].clear();
+        for (const Index v : from[j]) spread_from(v, ways_.at(v, j), j);
+        from[j].clear();
+        spread_below(j);
+        if (!changed_[j].empty()) is_kept = false;
+      }
+      for (Index j = 1; j < count_; ++j) {
+        for (const Index v : changed_[j]) keep_four(v, from);
+        for (const Index f : faces_at(changed_[j])) {
+          const auto v = corners(f);
+          if (TurnedFace(positions(v)).turns_over(at_[j], weights(v, j))) halve(f, j, from[j]);
+        }
+      }
     }
-    touched_.clear();
+  }
+  std::array<Index, 3> corners(Index f) const {
+    return {surface_.origin[3 * f], surface_.origin[3 * f + 1], surface_.origin[3 * f + 2]};
+  }
+  std::array<Vector3, 3> positions(const std::array<Index, 3>& v) const {
+    return {surface_.position[v[0]], surface_.position[v[1]], surface_.position[v[2]]};
+  }
+  std::array<double, 3> weights(const std::array<Index, 3>& v, Index j) const {
+    return {smooth_share(ways_.at(v[0], j)), smooth_share(ways_.at(v[1], j)),
+            smooth_share(ways_.at(v[2], j))};
+  }
+  // The shortest bone first; what hangs on its joint then hangs on the one above.
+  void rank_joints() {
+    std::vector<Index> above(count_, kNone);
+    std::vector<double> bone(count_, 0);
+    rank_.assign(count_, kNone);
+    for (Index j = 1; j < count_; ++j) {
+      above[j] = ways_.above(j);
+      bone[j] = (at_[j] - at_[above[j]]).norm();
+    }
+    for (Index rank = 0; rank + 1 < count_; ++rank) {
+      Index shortest = kNone;
+      for (Index j = 1; j < count_; ++j)
+        if (rank_[j] == kNone && (shortest == kNone || bone[j] < bone[shortest])) shortest = j;
+      rank_[shortest] = rank;
+      for (Index j = 1; j < count_; ++j) {
+        if (above[j] != shortest) continue;
+        above[j] = above[shortest];
+        bone[j] += bone[shortest];
+      }
+    }
+  }
+  void keep_four(Index v, std::vector<std::vector<Index>>& from) {
+    for (;;) {
+      Index joints = 0, first = kNone;
+      double below = 0;
+      for (Index j = ways_.of_map(v).joint; j != kNone; j = ways_.above(j)) {
+        const double weight = smooth_share(ways_.at(v, j)), own = weight - below;
+        below = weight;
+        if (own <= kLeastWeight) continue;
+        ++joints;
+        if (j > 0 && (first == kNone || rank_[j] < rank_[first])) first = j;
+      }
+      if (joints <= 4) return;
+      Index next = kNone;
+      for (Index j = ways_.of_map(v).joint; j != first; j = ways_.above(j)) next = j;
+      ways_.lower(v, first, next == kNone ? 0.0 : ways_.at(v, next));
+      from[first].push_back(v);
+    }
+  }
+  void halve_turned(Index f, std::vector<std::vector<Index>>& from) {
+    const std::array<Index, 3> v = corners(f);
+    const auto as_first = [&](Index w) {
+      return !ways_.is_lowered(w) && ways_.of_map(w) == ways_.of_map(v[0]);
+    };
+    if (as_first(v[0]) && as_first(v[1]) && as_first(v[2])) return;
+    const TurnedFace face(positions(v));
+    for (std::size_t k = 0; k < 3; ++k)
+      for (Index j = ways_.of_map(v[k]).joint; j > 0; j = ways_.above(j)) {
+        if ((k > 0 && ways_.is_on_way(v[0], j)) || (k > 1 && ways_.is_on_way(v[1], j))) break;
+        const std::array<double, 3> weight = weights(v, j);
+        if (weight[0] == 1 && weight[1] == 1 && weight[2] == 1) break;
+        if (weight[0] == weight[1] && weight[1] == weight[2]) continue;
+        if (face.turns_over(at_[j], weight)) halve(f, j, from[j]);
+      }
+  }
+  void halve(Index f, Index joint, std::vector<Index>& from) {
+    for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+      const Index v = surface_.origin[h];
+      const double change = std::abs(ways_.at(v, joint) - ways_.at(surface_.target(h), joint)),
+                   most = change < 2 * kLeastChange ? 0 : 0.5 * change;
+      const auto kept = most_[joint].insert({edge(h), most}).first;
+      kept->second = std::min(kept->second, most);
+      from.push_back(v);
+    }
+  }
+  std::vector<Index> faces_at(const std::vector<Index>& vertices) {
+    ++look_;
+    std::vector<Index> faces;
+    for (const Index v : vertices) {
+      Index h = surface_.vertex_halfedge[v];
+      const Index first = h;
+      do {
+        if (std::exchange(last_look_[h / 3], look_) != look_) faces.push_back(h / 3);
+        h = surface_.next_outgoing(h);
+      } while (h != first);
+    }
+    return faces;
   }
 
   const SurfaceSnapshot& surface_;
-  const Rig& rig_;
-  const std::vector<BoneShare>& shares_;
-  const std::vector<char> asked_;
-  std::vector<std::vector<char>> hangs_on_;      // per joint, for each: whether it is below
-  std::vector<Vector3> at_;                      // per joint, in the surface's frame
-  std::vector<std::vector<Index>> steep_;        // per joint: half-edges, from low to high
-  std::vector<std::vector<Index>> steep_faces_;  // per joint: half-edges opposite wide angles
-  std::vector<double> lowered_;                  // per vertex: of the present joint
-  std::vector<Index> blunt_;                     // per face: see blunt_halfedge; kUnknown: not asked yet
-  std::vector<Index> touched_;
-  std::vector<LowerShare> found_;
+  const Index count_;  // of joints
+  JointWays ways_;
+  const std::vector<char> asked_;                        // per joint
+  std::vector<Vector3> at_;                              // per joint, in the surface's frame
+  std::vector<std::vector<Index>> steep_;                // per joint: half-edges, from low to high
+  std::vector<std::unordered_map<Index, double>> most_;  // per joint: of edges of faces that turned over
+  std::vector<std::vector<Index>> changed_;              // per joint: vertices, at the last spread
+  std::vector<Index> rank_;                              // per joint: which goes first
+  std::vector<char> is_changed_;  // per vertex: whether in the present joint's changed_
+  std::vector<Index> last_look_;  // per face
+  Index look_ = 0;
+  using Item = std::pair<double, Index>;
+  std::vector<Item> queue_;  // shares of vertices
 };
 
 }  // namespace
 
-std::vector<LowerShare> bound_slopes(const SurfaceSnapshot& surface, const Rig& rig,
-                                     const std::vector<BoneShare>& shares) {
-  return Slopes(surface, rig, shares, std::vector<char>(rig.joints.size(), 1)).lower_all();
+JointWays bound_slopes(const SurfaceSnapshot& surface, const Rig& rig, const std::vector<BoneShare>& shares) {
+  return Slopes(surface, rig, shares).lower_all();
 }
 
-std::vector<Index> find_idle(const SurfaceSnapshot& surface, const Rig& rig,
-                             const std::vector<BoneShare>& shares, const std::vector<Index>& joints) {
-  std::vector<char> asked(rig.joints.size(), 0);
-  for (const Index j : joints) asked[j] = 1;
-  return Slopes(surface, rig, shares, std::move(asked)).find_idle(joints);
+bool may_follow(const SurfaceSnapshot& surface, const Rig& rig, const std::vector<BoneShare>& shares,
+                const std::vector<char>& joints) {
+  return Slopes(surface, rig, shares).is_one_followed(joints);
 }
 
 }  // namespace mspskel::detail

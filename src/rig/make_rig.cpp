@@ -6,6 +6,7 @@
 
 #include "bone_shares.h"
 #include "bound_slopes.h"
+#include "joint_ways.h"
 #include "mspskel/base/error.h"
 #include "mspskel/skeleton/check_surface_map.h"
 #include "name_joints.h"
@@ -15,7 +16,7 @@ namespace mspskel {
 namespace {
 
 using detail::BoneShare;
-using detail::LowerShare;
+using detail::JointWays;
 using detail::SkeletonTree;
 
 void check_fit(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton) {
@@ -23,28 +24,22 @@ void check_fit(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton) {
   check_surface_map(surface, skeleton);
 }
 
-// Less than this nobody sees, and files keep no more than seven digits.
-constexpr double kLeastWeight = 1e-4;
-
-// Of a vertex: a joint on the way from the root has what it is followed more than the next one. `lower` are
-// the vertex's lower shares, ascending by joint.
+// Of a vertex: a joint on the way from the root has what it is followed more than the next one.
 class Influences {
  public:
-  explicit Influences(const Rig& rig) : rig_(rig) {}
+  explicit Influences(const JointWays& ways) : ways_(ways) {}
 
-  std::array<Influence, 4> of(const BoneShare& share, const LowerShare* begin, const LowerShare* end) {
-    if (share.share >= 1 && begin == end) return {{{share.joint, 1.0}}};
+  std::array<Influence, 4> of(Index v) {
+    const BoneShare& share = ways_.of_map(v);
+    if (share.share >= 1 && !ways_.is_lowered(v)) return {{{share.joint, 1.0}}};
     way_.clear();
-    for (Index j = share.joint; j != kNone; j = rig_.joints[j].parent)
-      way_.push_back({j, j == share.joint ? share.share : 1.0});
-    std::reverse(way_.begin(), way_.end());
-    double above = 1;
-    for (Influence& step : way_) {
-      const auto lower = std::find_if(begin, end, [&](const LowerShare& l) { return l.joint == step.joint; });
-      if (lower != end) step.weight = lower->share;
-      above = step.weight = std::min(above, detail::smooth_share(step.weight));
+    double below = 0;
+    for (Index j = share.joint; j != kNone; j = ways_.above(j)) {
+      const double weight = detail::smooth_share(ways_.at(v, j));
+      way_.push_back({j, weight - below});
+      below = weight;
     }
-    for (std::size_t i = 0; i + 1 < way_.size(); ++i) way_[i].weight -= way_[i + 1].weight;
+    std::reverse(way_.begin(), way_.end());
     return strongest();
   }
 
@@ -56,7 +51,7 @@ class Influences {
       const auto least =
           std::min_element(way_.begin(), way_.end(),
                            [](const Influence& a, const Influence& b) { return a.weight < b.weight; });
-      if (way_.size() == 1 || (way_.size() <= 4 && least->weight > kLeastWeight)) break;
+      if (way_.size() == 1 || (way_.size() <= 4 && least->weight > detail::kLeastWeight)) break;
       (least == way_.begin() ? least + 1 : least - 1)->weight += least->weight;
       way_.erase(least);
     }
@@ -68,21 +63,15 @@ class Influences {
     return influences;
   }
 
-  const Rig& rig_;
+  const JointWays& ways_;
   std::vector<Influence> way_;  // from the root
 };
 
-std::vector<std::array<Influence, 4>> influences_of(const Rig& rig, const std::vector<BoneShare>& shares,
-                                                    const std::vector<LowerShare>& lower) {
-  std::vector<std::array<Influence, 4>> influences(shares.size());
-  Influences made(rig);
-  const LowerShare *begin = lower.data(), *const all = begin + lower.size();
-  for (std::size_t v = 0; v < shares.size(); ++v) {
-    const LowerShare* end = begin;
-    while (end != all && end->vertex == static_cast<Index>(v)) ++end;
-    influences[v] = made.of(shares[v], begin, end);
-    begin = end;
-  }
+std::vector<std::array<Influence, 4>> influences_of(const JointWays& ways, Index vertices) {
+  std::vector<std::array<Influence, 4>> influences;
+  influences.reserve(vertices);
+  Influences made(ways);
+  for (Index v = 0; v < vertices; ++v) influences.push_back(made.of(v));
   return influences;
 }
 
@@ -203,17 +192,32 @@ Rig make_rig(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton, cons
   validate(options);
   check_fit(surface, skeleton);
   const SkeletonTree tree = detail::make_skeleton_tree(skeleton);
-  std::vector<char> marked = detail::choose_joints(skeleton, tree, options.joints);
-  Rig rig;
-  lay_joints(skeleton, tree, marked, rig);
-  std::vector<BoneShare> shares = detail::bone_shares(surface, skeleton, tree, rig, options.blend);
-  const std::vector<Index> idle = detail::find_idle(surface, rig, shares, first_joints(limbs_of(rig)));
-  if (!idle.empty()) {
-    for (const Index j : idle) detail::turn_farther_out(tree, rig.joints[j].node, marked);
-    lay_joints(skeleton, tree, marked, rig);
-    shares = detail::bone_shares(surface, skeleton, tree, rig, options.blend);
+  const std::vector<char> marked = detail::choose_joints(skeleton, tree, options.joints);
+  const auto lay = [&](const std::vector<char>& at_nodes) {
+    Rig rig;
+    lay_joints(skeleton, tree, at_nodes, rig);
+    return rig;
+  };
+  const auto shares_of = [&](const Rig& rig) {
+    return detail::bone_shares(surface, skeleton, tree, rig, options.blend);
+  };
+  const auto follow = [&](Rig& rig, const std::vector<BoneShare>& shares) {
+    rig.influences = influences_of(detail::bound_slopes(surface, rig, shares), surface.vertex_count());
+  };
+  Rig rig = lay(marked);
+  follow(rig, shares_of(rig));
+  if (const std::vector<Index> idle = idle_limbs(rig, limbs_of(rig)); !idle.empty()) {
+    std::vector<char> farther_out = marked;
+    for (const Index j : idle) detail::turn_farther_out(tree, rig.joints[j].node, farther_out);
+    Rig turned = lay(farther_out);
+    const std::vector<BoneShare> shares = shares_of(turned);
+    std::vector<char> is_moved;
+    for (const RigJoint& joint : turned.joints) is_moved.push_back(marked[joint.node] ? 0 : 1);
+    if (detail::may_follow(surface, turned, shares, is_moved)) {
+      follow(turned, shares);
+      rig = std::move(turned);
+    }
   }
-  rig.influences = influences_of(rig, shares, detail::bound_slopes(surface, rig, shares));
   while (drop_idle_limbs(rig)) {
   }
   rig.cut = tree.cut;

@@ -314,44 +314,14 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("what follows a joint rises over a face by at most 1.3 over the distance from the joint") {
-  for (const Shape& shape : {askew_limbs(), slivered(webbed_limbs()), slivered(beast()), beast()}) {
-    const Rig rig = make_rig(shape.surface, shape.skeleton);
-    double steepest = 0;
-    for (std::size_t f = 0; f < shape.soup.polygon_count(); ++f)
-      for (Index j = 1; j < static_cast<Index>(rig.joints.size()); ++j) {
-        std::array<Vector3, 3> x;
-        std::array<double, 3> followed{};
-        for (int k = 0; k < 3; ++k) {
-          const Index v = shape.soup.corners[3 * f + k];
-          x[k] = shape.soup.points[v];
-          for (const Influence& i : rig.influences[v])
-            if (i.weight > 0 && hangs_on(rig, i.joint, j)) followed[k] += i.weight;
-        }
-        const Vector3 normal = (x[1] - x[0]).cross(x[2] - x[0]);
-        const Vector3 slope = normal.cross((followed[1] - followed[0]) * (x[0] - x[2]) +
-                                           (followed[2] - followed[0]) * (x[1] - x[0])) /
-                              normal.squaredNorm();
-        const Vector3 middle = (x[0] + x[1] + x[2]) / 3;
-        steepest = std::max(steepest, slope.norm() * (middle - rig.joints[j].position).norm());
-      }
-
-    CHECK(steepest < 1.3);
-  }
-}
-
-// Farther from the joint than `surroundings`, in model units, against the way that a face is turned by what
-// its corners follow the joint on average.
-Index count_flipped(const Shape& shape, const Rig& rig, Index turned, const Vector3& axis, double degrees,
-                    double surroundings = 0) {
+// Against the way that a face is turned by what its corners follow the joint on average.
+Index count_flipped(const Shape& shape, const Rig& rig, Index turned, const Vector3& axis, double degrees) {
   const PolygonSoup& soup = shape.soup;
   const auto bent = bend(rig, soup.points, {{turned, axis, degrees}});
   Index flipped = 0;
   for (std::size_t f = 0; f < soup.polygon_count(); ++f) {
     const Index* corner = &soup.corners[3 * f];
     double followed = 0;
-    const Vector3 middle = (soup.points[corner[0]] + soup.points[corner[1]] + soup.points[corner[2]]) / 3;
-    if ((middle - rig.joints[turned].position).norm() < surroundings) continue;
     for (int k = 0; k < 3; ++k)
       for (const Influence& i : rig.influences[corner[k]])
         if (i.weight > 0 && hangs_on(rig, i.joint, turned)) followed += i.weight / 3;
@@ -364,34 +334,36 @@ Index count_flipped(const Shape& shape, const Rig& rig, Index turned, const Vect
   return flipped;
 }
 
-TEST_CASE("no face turns over when a limb's first joint bends by 45 degrees") {
-  for (const Shape& shape : {webbed_limbs(), askew_limbs(), beast(), sample("octoped"), sample("table")}) {
-    const Rig rig = make_rig(shape.surface, shape.skeleton);
-    for (Index j = 1; j < static_cast<Index>(rig.joints.size()); ++j) {
-      if (!is_limb(rig.joints[j].name) || is_limb(rig.joints[rig.joints[j].parent].name)) continue;
-      INFO(rig.joints[j].name);
-      for (int axis = 0; axis < 3; ++axis)
-        for (const double degrees : {45.0, -45.0})
-          CHECK(count_flipped(shape, rig, j, Vector3::Unit(axis), degrees, 0.1 * shape.surface.frame.scale) ==
-                0);
-    }
-  }
+// Of all joints, each turned by 45 degrees either way about axes of many directions.
+Index count_flipped(const Shape& shape, const Rig& rig) {
+  Index flipped = 0;
+  for (Index j = 1; j < static_cast<Index>(rig.joints.size()); ++j)
+    for (const Vector3& axis : {Vector3(1, 0, 0), Vector3(0, 1, 0), Vector3(0, 0, 1), Vector3(3, 1, 2),
+                                Vector3(-1, 3, 1), Vector3(2, -2, 3), Vector3(-3, -1, 1)})
+      for (const double degrees : {45.0, -45.0})
+        flipped += count_flipped(shape, rig, j, axis.normalized(), degrees);
+  return flipped;
 }
 
-TEST_CASE("few faces turn over where many joints lie close together, though a vertex follows only four") {
+TEST_CASE("no face turns over when a joint bends by 45 degrees, about whatever axis") {
+  for (const Shape& shape : {webbed_limbs(), askew_limbs(), beast(), sample("octoped"), sample("table")})
+    CHECK(count_flipped(shape, make_rig(shape.surface, shape.skeleton)) == 0);
+}
+
+TEST_CASE("no sliver turns over when a joint bends by 45 degrees") {
+  for (const Shape& shape : {slivered(webbed_limbs()), slivered(beast())})
+    CHECK(count_flipped(shape, make_rig(shape.surface, shape.skeleton)) == 0);
+}
+
+TEST_CASE("no face turns over where many joints lie close together, though a vertex follows only four") {
   const Shape shape = sample("quadruped");
   RigOptions options;
   options.joints = 90;
-  const Rig rig = make_rig(shape.surface, shape.skeleton, options);
-  Index flipped = 0;
-  for (Index j = 1; j < static_cast<Index>(rig.joints.size()); ++j)
-    if (is_limb(rig.joints[j].name))
-      for (int axis = 0; axis < 3; ++axis) flipped += count_flipped(shape, rig, j, Vector3::Unit(axis), 45);
-  CHECK(flipped < 60);
+  CHECK(count_flipped(shape, make_rig(shape.surface, shape.skeleton, options)) == 0);
 }
 
 TEST_CASE("a wanted number of joints is met") {
-  std::vector<Index> wanted{1, 60};
+  std::vector<Index> wanted{1, 40};
   for (Index joints = 3; joints <= 30; ++joints) wanted.push_back(joints);
   for (const Shape& shape : {beast(), sample("octoped")})
     for (const Index joints : wanted) {
