@@ -12,7 +12,7 @@ namespace {
 
 detail::WidthDemand demand_of(const DefaultMesh& mesh) {
   const Solid solid(mesh);
-  return detail::demand_of_width(solid.surface, solid.hierarchy);
+  return detail::demand_of_width(solid.surface, solid.hierarchy, {});
 }
 
 }  // namespace
@@ -39,7 +39,7 @@ TEST_CASE("The thinnest of a tube's widths is its radius, with noise and with mo
       const DefaultMesh mesh = noise > 0 ? jittered(tube, 7, noise) : tube;
       const Solid solid(mesh);
       const double thinnest =
-          detail::demand_of_width(solid.surface, solid.hierarchy).thinnest * solid.surface.frame.scale;
+          detail::demand_of_width(solid.surface, solid.hierarchy, {}).thinnest * solid.surface.frame.scale;
       CHECK(thinnest == Approx(0.2).epsilon(0.1));
     }
   }
