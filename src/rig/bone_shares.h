@@ -1,8 +1,6 @@
 // How much of each joint's turn what lies along the skeleton follows.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "mspskel/mesh/surface_snapshot.h"
