@@ -133,7 +133,8 @@ class LimbCompletion {
   }
 
   // On an input few triangles are all that there is, so they tell as much as the many of other limbs; on a
-  // coarser surface they are what coarsening left. The corner of a slab has a mouth as thin as that.
+  // coarser surface they are what coarsening left. The corner of a slab has a mouth as thin as that, and what
+  // lies flat between arcs bulges less than a disc.
   std::optional<PartLevel> twig_level(const SlenderPart& part) const {
     if (part.slenderest_of_few.depth == 0) return std::nullopt;
     const auto is_corner = [&](const PartLevel& level) {
@@ -141,7 +142,7 @@ class LimbCompletion {
                             level.mouth_thickness(), kSlack);
     };
     const PartLevel& own = part.slenderest_of_few;
-    if (own.slenderness() >= options_.slenderness && !is_corner(own)) return own;
+    if (own.slenderness() >= options_.slenderness && own.bulge() >= 1 && !is_corner(own)) return own;
     const PartLevel& level = part.narrowest_of_few;
     if (!is_corner(level) && is_bump(level, 2 * kPi * carrier_[part.top], options_)) return level;
     return std::nullopt;
