@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <queue>
 #include <tuple>
 #include <unordered_map>
@@ -97,11 +98,18 @@ class InnerPaths {
     for (const auto& [distance, v] : entries(b)) goals.push_back(v);
     if (goals.empty()) return false;
     for (const Index v : goals) mark(v).goal = true;
+    std::size_t came_by = goals.size();
     const Landmarks::Goal goal = most == kAnyNumber ? landmarks_.goal(goals) : Landmarks::Goal();
     // By the cost of the whole way at least.
     using Reach = std::pair<double, Entry>;
     std::priority_queue<Reach, std::vector<Reach>, std::greater<Reach>> queue;
     const auto reach = [&](double cost, Index v, Index before) {
+      // What comes after a way that is known to stay inside, or meets the surface, is never the cheapest.
+      const std::pair<double, Index> way{cost, before};
+      if (way >= marks_[v].known) return;
+      const EdgeState state = before == kNone ? EdgeState::kInside : known_state(before, v);
+      if (state == EdgeState::kCrosses) return;
+      if (state == EdgeState::kInside) mark(v).known = way;
       queue.push({cost + goal.bound(v), {cost, v, before}});
     };
     for (const auto& [distance, v] : entries(a)) reach(step_cost(distance, clearance(v)), v, kNone);
@@ -113,6 +121,7 @@ class InnerPaths {
       if (marks_[v].done || (before != kNone && edge_crosses(before, v))) continue;
       if (most != kAnyNumber && most-- <= 0) return false;
       mark(v).done = true;
+      ++came_by;
       marks_[v].before = before;
       if (marks_[v].goal) {
         between.clear();
@@ -125,7 +134,7 @@ class InnerPaths {
         if (!marks_[w].done) reach(cost + more, w, v);
       });
     }
-    if (most == kAnyNumber) set_landmarks_where_worthwhile(goals.front());
+    if (most == kAnyNumber) set_landmarks_where_worthwhile(goals.front(), came_by);
     return found;
   }
 
@@ -197,6 +206,8 @@ class InnerPaths {
 
   struct Mark {
     Index before = kNone;
+    // The first in the queue of the ways that are known to stay inside: its cost and the vertex before.
+    std::pair<double, Index> known{std::numeric_limits<double>::infinity(), kNone};
     bool done = false, goal = false;
   };
   Mark& mark(Index v) {
@@ -225,16 +236,23 @@ class InnerPaths {
       const Vector3 middle = (surface_.position[a] + surface_.position[b] + surface_.position[c]) / 3;
       point_.push_back(middle);
       clearance_.push_back(solid_.inside(middle) ? kUnknown : 0.0);
-      for (const Index v : gates_[i].corner)
-        gates_at_[v].push_back(surface_.vertex_count() + static_cast<Index>(i));
     }
+    if (gates_.empty()) return;
+    first_gate_.assign(surface_.position.size() + 1, 0);
+    for (const Gate& gate : gates_)
+      for (const Index v : gate.corner) ++first_gate_[v + 1];
+    std::partial_sum(first_gate_.begin(), first_gate_.end(), first_gate_.begin());
+    gates_at_.resize(static_cast<std::size_t>(first_gate_.back()));
+    std::vector<Index> next(first_gate_);
+    for (std::size_t i = 0; i < gates_.size(); ++i)
+      for (const Index v : gates_[i].corner)
+        gates_at_[next[v]++] = surface_.vertex_count() + static_cast<Index>(i);
   }
 
   // visit(gate) for the gates with a corner at v.
   template <class Visit>
   void for_each_gate_at(Index v, Visit visit) const {
-    if (const auto at = gates_at_.find(v); at != gates_at_.end())
-      for (const Index gate : at->second) visit(gate);
+    for (Index i = first_gate_[v]; i < first_gate_[v + 1]; ++i) visit(gates_at_[i]);
   }
 
   double clearance(Index v) {
@@ -251,6 +269,12 @@ class InnerPaths {
       out = surface_.next_outgoing(out);
       back = surface_.next_outgoing(back);
     }
+  }
+
+  // What is known of that.
+  EdgeState known_state(Index from, Index to) const {
+    if (std::max(from, to) >= surface_.vertex_count()) return EdgeState::kUnknown;  // a gate
+    return edge_[edge_between(from, to)];
   }
 
   // Whether the way along an edge, from one neighbour to the other, meets what bounds the solid. Searches
@@ -292,10 +316,10 @@ class InnerPaths {
   }
 
   // Landmarks take about as long as four searches of the whole graph.
-  void set_landmarks_where_worthwhile(Index goal) {
+  void set_landmarks_where_worthwhile(Index goal, std::size_t came_by) {
     constexpr std::size_t kSearches = 4;
     if (!landmarks_.empty()) return;
-    came_by_ += marked_.size();
+    came_by_ += came_by;
     if (came_by_ < kSearches * point_.size()) return;
     landmarks_.build(node_count(), goal, [&](Index v, auto visit) { for_each_edge(v, visit); });
   }
@@ -349,12 +373,12 @@ class InnerPaths {
   const Execution execution_;
   const InnerSurface kind_;
   std::vector<Gate> gates_;
-  std::unordered_map<Index, std::vector<Index>> gates_at_;  // a vertex
-  std::vector<Vector3> point_;                              // of the vertices, then of the gates
-  std::vector<double> clearance_;                           // 0: no chord, or a gate outside
-  BoxIndex index_;                                          // of the usable points
-  std::vector<EdgeState> edge_;                             // per half-edge
-  std::vector<Mark> marks_;  // per point; of `marked_` alone they mean something
+  std::vector<Index> first_gate_, gates_at_;  // those of each vertex one after the other
+  std::vector<Vector3> point_;                // of the vertices, then of the gates
+  std::vector<double> clearance_;             // 0: no chord, or a gate outside
+  BoxIndex index_;                            // of the usable points
+  std::vector<EdgeState> edge_;               // per half-edge
+  std::vector<Mark> marks_;                   // per point; of `marked_` alone they mean something
   std::vector<Index> marked_;
   Landmarks landmarks_;      // of this graph, where searches have come by many vertices
   std::size_t came_by_ = 0;  // vertices, before there were landmarks
