@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <vector>
 
+#include "mspskel/base/even_directions.h"
 #include "mspskel/base/value_at_rank.h"
 #include "mspskel/extract_skeleton.h"
 #include "mspskel/solid/detail/inward_chord.h"
@@ -23,12 +25,17 @@ inline std::optional<double> limb_half_width(const SurfaceSnapshot& surface,
                                              const BoundingVolumeHierarchy& solid, Index v) {
   const auto chord = inward_chord(surface, solid, v);
   if (!chord) return std::nullopt;
-  const Vector3 inward = -surface.normal[v].normalized(), across = inward.unitOrthogonal();
-  std::array<double, 8> ray;
-  solid.ray_fan(chord->start + 0.5 * chord->length * inward, across, inward.cross(across),
-                static_cast<int>(ray.size()), ray.data());
-  std::nth_element(ray.begin(), ray.begin() + 2, ray.end());
-  return std::max(0.5 * chord->length, ray[2]);
+  const Vector3 inward = -surface.normal[v].normalized(), u = inward.unitOrthogonal(), w = inward.cross(u);
+  const Vector3 middle = chord->start + 0.5 * chord->length * inward;
+  std::array<double, 3> shortest;  // ascending
+  shortest.fill(std::numeric_limits<double>::infinity());
+  for (const Vector2& d : even_directions(8)) {
+    const auto hit = solid.first_hit(middle, d.x() * u + d.y() * w, shortest[2]);
+    if (!hit) continue;
+    shortest[2] = hit->distance;
+    std::sort(shortest.begin(), shortest.end());
+  }
+  return std::max(0.5 * chord->length, shortest[2]);
 }
 
 struct WidthDemand {
