@@ -96,8 +96,8 @@ inline bool is_limb(const LimbMeasures& m, const LimbOptions& o) {
 inline constexpr double kFinger = 1.6;
 
 // A finger or a toe, beside others of a palm.
-inline bool is_digit(const LimbMeasures& m, const LimbOptions& o) {
-  return m.slenderness >= kFinger * o.slenderness && m.depth >= 1.6 * o.smallest;
+inline bool is_digit(double depth, double slenderness, const LimbOptions& o) {
+  return slenderness >= kFinger * o.slenderness && depth >= 1.6 * o.smallest;
 }
 
 // An ear or a horn: a bump rather than a limb, but much smaller than what carries it, and no wider unless it

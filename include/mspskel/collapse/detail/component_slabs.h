@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <vector>
 
 #include "mspskel/collapse/detail/homology_generators.h"
@@ -24,14 +25,8 @@ class ComponentSlabs {
   // once. Valid until the next call.
   const ComponentElements& operator()(const Vector3& normal, double low, double high) {
     constexpr int kWholeLooks = 32;  // a tree takes about as long
-    if (looks_ < kWholeLooks) {
-      ++looks_;
-      return component_;
-    }
-    if (looks_ == kWholeLooks) {
-      ++looks_;
-      sort_faces();
-    }
+    if (++looks_ <= kWholeLooks) return component_;
+    if (looks_ == kWholeLooks + 1) sort_faces();
     near_.faces.clear();
     near_.vertices.clear();
     faces_.in_slab(normal, low, high, [&](Index f) { near_.faces.push_back(f); });
@@ -55,7 +50,7 @@ class ComponentSlabs {
 
   const SurfaceSnapshot& surface_;
   const ComponentElements& component_;
-  int looks_ = 0;  // at the whole component
+  std::int64_t looks_ = 0;
   BoxIndex faces_;
   ComponentElements near_;
 };

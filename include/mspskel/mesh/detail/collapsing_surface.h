@@ -53,7 +53,10 @@ class CollapsingSurface {
   static constexpr double kStale = -std::numeric_limits<double>::infinity();
 
   double& stored_cost(Index h) { return cost_[std::min(h, twin_[h])]; }
-  void block(Index h) { stored_cost(h) = -stored_cost(h); }
+  void block(Index h) {
+    double& cost = stored_cost(h);
+    if (cost != kStale) cost = -std::abs(cost);
+  }
   void unblock(Index h) {
     double& cost = stored_cost(h);
     if (cost != kStale) cost = std::abs(cost);

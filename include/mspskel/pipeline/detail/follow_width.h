@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <vector>
 
+#include "mspskel/base/even_directions.h"
 #include "mspskel/extract_skeleton.h"
 #include "mspskel/solid/detail/inward_chord.h"
 
@@ -25,14 +27,19 @@ inline std::optional<double> limb_half_width(const SurfaceSnapshot& surface,
   const Vector3 inward = -surface.normal[v].normalized();
   // Along an edge, so that the rays turn with the model.
   const Vector3 edge = surface.position[surface.target(surface.vertex_halfedge[v])] - surface.position[v];
-  Vector3 across = edge - edge.dot(inward) * inward;
-  if (!(across.norm() > 0)) across = inward.unitOrthogonal();
-  across.normalize();
-  std::array<double, 8> ray;
-  solid.ray_fan(chord->start + 0.5 * chord->length * inward, across, inward.cross(across),
-                static_cast<int>(ray.size()), ray.data());
-  std::nth_element(ray.begin(), ray.begin() + 2, ray.end());
-  return std::max(0.5 * chord->length, ray[2]);
+  Vector3 u = edge - edge.dot(inward) * inward;
+  if (!(u.norm() > 0)) u = inward.unitOrthogonal();
+  u.normalize();
+  const Vector3 w = inward.cross(u), middle = chord->start + 0.5 * chord->length * inward;
+  std::array<double, 3> shortest;  // ascending
+  shortest.fill(std::numeric_limits<double>::infinity());
+  for (const Vector2& d : even_directions(8)) {
+    const auto hit = solid.first_hit(middle, d.x() * u + d.y() * w, shortest[2]);
+    if (!hit) continue;
+    shortest[2] = hit->distance;
+    std::sort(shortest.begin(), shortest.end());
+  }
+  return std::max(0.5 * chord->length, shortest[2]);
 }
 
 // The second thinnest of a hundred, about: the mean of the logarithms of those round it, since a single one

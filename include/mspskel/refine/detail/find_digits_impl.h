@@ -145,8 +145,8 @@ class DigitSearch {
 
   struct Notes {
     LevelSum sum;
-    bool ended = false;     // has met a digit, or come to where the region ends
-    LimbMeasures measures;  // where it was most slender before
+    bool ended = false;    // has met a digit, or come to where the region ends
+    PartLevel slenderest;  // before that, of those at which it is a digit; else of no depth
   };
   using Part = GrowingParts<Notes>::Part;
 
@@ -204,20 +204,19 @@ class DigitSearch {
     if (notes.ended) return;
     const PartLevel level = notes.sum.at(at, distance_[part.top]);
     if (!(level.area > 1e-12 * level.depth)) return;
-    LimbMeasures m;
-    m.depth = level.depth;
-    m.slenderness = level.slenderness();
-    if (m.slenderness > notes.measures.slenderness && is_digit(m, least)) notes.measures = m;
+    const double slenderness = level.slenderness();
+    const bool more = notes.slenderest.depth == 0 || slenderness > notes.slenderest.slenderness();
+    if (more && is_digit(level.depth, slenderness, least)) notes.slenderest = level;
   }
 
   bool add_if_digit(const Part& part) {
-    const LimbMeasures& m = part.notes.measures;
+    const PartLevel& level = part.notes.slenderest;
     // Where vertices lie in one place, its top may be another's already.
-    if (!(m.depth > 0) || taken_[part.top]) return false;
+    if (!(level.depth > 0) || taken_[part.top]) return false;
     Digit digit;
     digit.tip = surface_.position[part.top];
-    digit.length = m.depth;
-    digit.radius = m.depth / m.slenderness;
+    digit.length = level.depth;
+    digit.radius = level.depth / level.slenderness();
     const double base = distance_[part.top] - digit.length;
     const auto add = [&](Index v) {
       if (taken_[v] || distance_[v] < base) return;

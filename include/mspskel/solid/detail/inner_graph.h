@@ -37,22 +37,17 @@ inline std::vector<Gate> find_gates(const SurfaceSnapshot& surface) {
   std::vector<Index> beside(surface.position.size(), kNone);  // the last vertex that each is beside
   for (Index a = 0; a < surface.vertex_count(); ++a) {
     for_each_neighbour(surface, a, [&](Index b) { beside[b] = a; });
-    for_each_neighbour(surface, a, [&](Index b) {
-      if (b < a) return;
-      Index left = kNone, right = kNone;  // the apexes of the faces at a-b
-      const Index first = surface.vertex_halfedge[a];
-      Index h = first;
-      do {
-        if (surface.target(h) == b) {
-          left = surface.apex(h);
-          right = surface.apex(surface.twin[h]);
-        }
-        h = surface.next_outgoing(h);
-      } while (h != first);
-      for_each_neighbour(surface, b, [&](Index c) {
-        if (c > b && beside[c] == a && c != left && c != right) gates.push_back({{a, b, c}});
-      });
-    });
+    const Index first = surface.vertex_halfedge[a];
+    if (first == kNone) continue;
+    Index h = first;
+    do {
+      const Index b = surface.target(h), left = surface.apex(h), right = surface.apex(surface.twin[h]);
+      if (a < b)
+        for_each_neighbour(surface, b, [&](Index c) {
+          if (c > b && beside[c] == a && c != left && c != right) gates.push_back({{a, b, c}});
+        });
+      h = surface.next_outgoing(h);
+    } while (h != first);
   }
   return gates;
 }
@@ -255,8 +250,16 @@ class InnerPaths {
     for (Index i = first_gate_[v]; i < first_gate_[v + 1]; ++i) visit(gates_at_[i]);
   }
 
+  // Searches that have come by many points come by most: then the others are found on all threads.
   double clearance(Index v) {
-    if (clearance_[v] == kUnknown) clearance_[v] = solid_.distance(point_[v]);
+    constexpr Index kShare = 4;
+    if (clearance_[v] != kUnknown) return clearance_[v];
+    if (++asked_ != node_count() / kShare) return clearance_[v] = solid_.distance(point_[v]);
+    parallel_for(
+        node_count(), "arcs", execution_, [] { return 0; },
+        [&](Index w, int) {
+          if (clearance_[w] == kUnknown) clearance_[w] = solid_.distance(point_[w]);
+        });
     return clearance_[v];
   }
 
@@ -376,6 +379,7 @@ class InnerPaths {
   std::vector<Index> first_gate_, gates_at_;  // those of each vertex one after the other
   std::vector<Vector3> point_;                // of the vertices, then of the gates
   std::vector<double> clearance_;             // 0: no chord, or a gate outside
+  Index asked_ = 0;                           // for clearances, one by one
   BoxIndex index_;                            // of the usable points
   std::vector<EdgeState> edge_;               // per half-edge
   std::vector<Mark> marks_;                   // per point; of `marked_` alone they mean something
