@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "mspskel/arcs/detail/arc_editor.h"
+#include "mspskel/extract_skeleton.h"
 #include "mspskel/limbs/limb_tips.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/mesh/build_mesh.h"
@@ -13,6 +14,7 @@
 #include "mspskel/refine/prune_branches.h"
 #include "mspskel/refine/refine_arcs.h"
 #include "mspskel/samples/polygonise.h"
+#include "mspskel/samples/samples.h"
 #include "mspskel/samples/skin_graph.h"
 #include "refine/tripod_arcs.h"
 #include "support/arc_graphs.h"
@@ -132,6 +134,55 @@ TEST_CASE("Most spikes of one vertex on an input get their arcs, and stubs none"
   const Solid stubby(build_mesh(horn_with_spikes(0.4, stubs)));
   REQUIRE(stubs == spikes);
   CHECK(added(stubby, detail::InnerSurface::kInput) == 0);
+}
+
+TEST_CASE("A fin of few triangles is a limb of what is thicker") {
+  // A triangle upright on a bar, a fifth as thick as the bar: as sharp as the corner of a plate.
+  const Solid solid(
+      from_triangles({{0, 0, 0},
+                      {4, 0, 0},
+                      {4, 1, 0},
+                      {0, 1, 0},
+                      {0, 0, 1},
+                      {4, 0, 1},
+                      {4, 1, 1},
+                      {0, 1, 1},
+                      {1.4, 0.4, 1},
+                      {2.6, 0.4, 1},
+                      {2.6, 0.6, 1},
+                      {1.4, 0.6, 1},
+                      {2, 0.4, 1.7},
+                      {2, 0.6, 1.7}},
+                     {{0, 2, 1},  {0, 3, 2},   {0, 1, 5},   {0, 5, 4},    {1, 2, 6},   {1, 6, 5},
+                      {2, 3, 7},  {2, 7, 6},   {3, 0, 4},   {3, 4, 7},    {4, 5, 9},   {4, 9, 8},
+                      {5, 6, 10}, {5, 10, 9},  {6, 7, 11},  {6, 11, 10},  {7, 4, 8},   {7, 8, 11},
+                      {8, 9, 12}, {9, 10, 13}, {9, 13, 12}, {10, 11, 13}, {11, 8, 12}, {11, 12, 13}}));
+  REQUIRE(solid.surface.component_count == 1);
+  ArcGraph graph;
+  graph.add_hub(solid.at({0.2, 0.5, 0.5}));
+  graph.add_hub(solid.at({3.8, 0.5, 0.5}));
+  line(graph, 0, 1);
+  map_to_nearest(graph, solid.surface.position);
+  detail::InnerGraph inner(solid.surface, solid.hierarchy, {}, detail::InnerSurface::kInput);
+  std::vector<LimbTip> tips;
+  REQUIRE(complete_limbs(graph, inner, tips, {}, 0.008) == 1);
+  CHECK((solid.model(tips[0].position) - Vector3(2, 0.5, 1.7)).norm() < 0.11);
+  CHECK(crossings(graph, solid.hierarchy) == 0);
+}
+
+TEST_CASE("What lies flat between the legs of a table of few triangles is no twig") {
+  SampleOptions options;
+  options.sparse = true;
+  options.count = 8;
+  options.ratio = 0.7;
+  options.section = Section::kRound;
+  const ExtractResult result = extract_skeleton(build_mesh(make_sample("table", options)));
+  std::vector<int> degree(result.skeleton.nodes.size(), 0);
+  for (const auto& [a, b] : result.skeleton.edges) {
+    ++degree[a];
+    ++degree[b];
+  }
+  CHECK(std::count(degree.begin(), degree.end(), 1) == 8);
 }
 
 TEST_CASE("A limb without an arc gets one, and nothing is added where all have theirs") {

@@ -133,13 +133,16 @@ class LimbCompletion {
   }
 
   // On an input few triangles are all that there is, so they tell as much as the many of other limbs; on a
-  // coarser surface they are what coarsening left. The corner of a slab has a mouth as thin as that, and what
-  // lies flat between arcs bulges less than a disc.
+  // coarser surface they are what coarsening left. The corner of a slab has a mouth as thin as that but,
+  // other than a twig's, about as thick as what carries it. What lies flat between arcs bulges less than a
+  // disc.
   std::optional<PartLevel> twig_level(const SlenderPart& part) const {
+    constexpr double kThinner = 0.6;
     if (part.slenderest_of_few.depth == 0) return std::nullopt;
     const auto is_corner = [&](const PartLevel& level) {
-      return is_slab_corner(level.depth, level.depth_over_mouth(), level.slenderness(),
-                            level.mouth_thickness(), kSlack);
+      const double thickness = level.mouth_thickness();
+      return thickness >= kThinner * 2 * carrier_[part.top] &&
+             is_slab_corner(level.depth, level.depth_over_mouth(), level.slenderness(), thickness, kSlack);
     };
     const PartLevel& own = part.slenderest_of_few;
     if (own.slenderness() >= options_.slenderness && own.bulge() >= 1 && !is_corner(own)) return own;
