@@ -21,6 +21,10 @@ const double kSafe = std::pow(std::cos(kAngle / 2), 2) - kLeastLeft;
 
 double mean(const std::array<double, 3>& weight) { return (weight[0] + weight[1] + weight[2]) / 3; }
 
+double change_of(const std::array<double, 3>& weight) {
+  return std::max({weight[0], weight[1], weight[2]}) - std::min({weight[0], weight[1], weight[2]});
+}
+
 // A line each; the last one is there twice, since lines are computed in pairs.
 using Axes = Eigen::Matrix<double, 14, 3>;
 
@@ -59,9 +63,7 @@ bool TurnedFace::turns_over(const Vector3& joint, const std::array<double, 3>& w
 
 // With the parts of is_safe replaced by the most that they can be where weights differ by so much.
 bool TurnedFace::is_gentle(double far, const std::array<double, 3>& weight) const {
-  const double change =
-      std::max({weight[0], weight[1], weight[2]}) - std::min({weight[0], weight[1], weight[2]});
-  return kMove * change * (1.33 * far + 2.95 * length_) <= 0.6 * height_;
+  return kMove * change_of(weight) * (1.33 * far + 2.95 * length_) <= 0.6 * height_;
 }
 
 // Whatever the axis. With p and q the ends of the longest edge, r the third corner and t where its height
@@ -71,21 +73,19 @@ bool TurnedFace::is_safe(double far, const std::array<double, 3>& weight) const 
   const std::size_t p = p_, q = (p_ + 1) % 3, r = (p_ + 2) % 3;
   const double t = (x(r) - x(p)).dot(x(q) - x(p)) / (length_ * length_), whole = mean(weight);
   const double along = weight[q] - weight[p], across = weight[r] - weight[p] - t * along;
+  // As shares of edge and height, each with its bow.
+  const double e = kMove * std::abs(along) * far / length_, h = kMove * std::abs(across) * far / height_;
+  const auto is_little = [&](double f, double g) {
+    return std::sqrt(e * e + h * h) + f + g + e * g + f * h + f * g <= kSafe;
+  };
+  // A corner is at most 2/3 of the longest edge from the middle, its weight 2/3 of the change from the mean.
+  const double most = kMove * 8 / 9 * change_of(weight);
+  if (is_little(most, most * length_ / height_)) return true;
   const auto bow = [&](std::size_t k) -> Vector3 { return (weight[k] - whole) * (x(k) - middle_); };
   const Vector3 edge_bow = bow(q) - bow(p), height_bow = bow(r) - bow(p) - t * edge_bow;
-  // As shares of edge and height.
-  const double e = kMove * std::abs(along) * far / length_, h = kMove * std::abs(across) * far / height_,
-               f = kMove * edge_bow.norm() / length_, g = kMove * height_bow.norm() / height_;
-  return std::sqrt(e * e + h * h) + f + g + e * g + f * h + f * g <= kSafe;
+  return is_little(kMove * edge_bow.norm() / length_, kMove * height_bow.norm() / height_);
 }
 
-// About a unit axis n, a turn by the angle brings an edge e of the face, with w the difference of its ends'
-// arms times their weights, to `level` plus `side`, one the other way to `level` minus `side`:
-//
-//   level = e - c w + c (n.w) n,  side = s n x w,  c = 1 - cos(angle),  s = sin(angle)
-//
-// With a and b two edges so, the normal becomes a_level x b_level + a_side x b_side (`both`), plus or minus
-// a_level x b_side + a_side x b_level (`by_side`); both are told by dot products of n alone.
 bool TurnedFace::turns_over_about_axes(const Vector3& joint, const std::array<double, 3>& weight) const {
   const double c = 1 - std::cos(kAngle), s = std::sin(kAngle);
   const Vector3 first = weight[0] * (x(0) - joint), &n = normal_;
