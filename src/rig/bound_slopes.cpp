@@ -47,29 +47,40 @@ class Slopes {
     return std::move(ways_);
   }
   // Whether a vertex follows one of the joints by half or more, as far as edges tell. Joints above lower it
-  // only further, so they are not asked where none does already; nor is it asked where else shares of half or
+  // only further, so they are not asked where none does already. Nor is it asked where else shares of half or
   // more fall, since what falls below half falls from less.
   bool is_one_followed(const std::vector<char>& joints) {
     limit_ = 0.5;
-    std::vector<char> on_way(joints);
-    for (Index j = count_ - 1; j > 0; --j)
-      if (on_way[j]) on_way[ways_.above(j)] = 1;
     note_steep(joints);
     for (Index j = 1; j < count_; ++j)
       if (joints[j]) lower_along_edges(j);
-    if (!is_any_followed(joints)) return false;
+    std::vector<char> on_way(count_, 0);
+    std::vector<Index> followers;
+    for (Index v = 0; v < surface_.vertex_count(); ++v) {
+      Index j = ways_.of_map(v).joint;
+      while (j > 0 && !(joints[j] && ways_.at_on_way(v, j) >= 0.5)) j = ways_.above(j);
+      if (j > 0) followers.push_back(v);
+      for (; j > 0; j = ways_.above(j)) on_way[j] = 1;
+    }
     for (std::vector<Index>& edges : steep_) edges.clear();
-    note_steep(on_way);
-    for (Index j = 1; j < count_; ++j)
-      if (on_way[j]) lower_along_edges(j);
-    return is_any_followed(joints);
+    if (!followers.empty()) note_steep(on_way);
+    for (Index j = 1; j < count_ && !followers.empty(); ++j) {
+      if (!on_way[j]) continue;
+      lower_along_edges(j);
+      followers.erase(std::remove_if(followers.begin(), followers.end(),
+                                     [&](Index v) { return !may_lead(v, j, joints); }),
+                      followers.end());
+    }
+    return !followers.empty();
   }
 
  private:
-  bool is_any_followed(const std::vector<char>& joints) const {
-    for (Index v = 0; v < surface_.vertex_count(); ++v)
-      for (Index j = ways_.of_map(v).joint; j != kNone; j = ways_.above(j))
-        if (joints[j] && ways_.at_on_way(v, j) >= 0.5) return true;
+  // Whether the vertex may follow by half or more one of `joints` that is the joint or below it, or one
+  // above.
+  bool may_lead(Index v, Index joint, const std::vector<char>& joints) const {
+    if (!ways_.is_on_way(v, joint) || ways_.at_on_way(v, joint) >= 0.5) return true;
+    for (Index j = ways_.above(joint); j > 0; j = ways_.above(j))
+      if (joints[j]) return true;
     return false;
   }
   void lower_along_edges(Index joint) {
