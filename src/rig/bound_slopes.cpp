@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <unordered_map>
 #include <utility>
 
@@ -27,136 +26,213 @@ class Slopes {
         ways_(rig, shares),
         steep_(rig.joints.size()),
         most_(rig.joints.size()),
+        is_halved_(surface.vertex_count(), 0),
         changed_(rig.joints.size()),
-        is_changed_(surface.vertex_count(), 0),
+        here_(surface.vertex_count()),
         last_look_(surface.face_count(), 0) {
     for (const RigJoint& joint : rig.joints) at_.push_back(surface.frame.to_normalised(joint.position));
-    note_steep();
+    longest_square_.assign(surface.vertex_count(), 0.0);
+    for (Index h = 0; h < surface.halfedge_count(); ++h) {
+      const Index v = surface.origin[h], w = surface.target(h);
+      const double square = (surface.position[w] - surface.position[v]).squaredNorm();
+      longest_square_[v] = std::max(longest_square_[v], square);
+    }
   }
 
   JointWays lower_all() {
-    lower_along_edges();
+    note_steep(std::vector<char>(count_, 1));
+    for (Index j = 1; j < count_; ++j) lower_along_edges(j);
     rank_joints();
     keep_sides();
     return std::move(ways_);
   }
-  // Whether a vertex follows one of the joints by half or more, as far as edges tell.
+  // Whether a vertex follows one of the joints by half or more, as far as edges tell. Joints above lower it
+  // only further, so they are not asked where none does already. Nor is it asked where else shares of half or
+  // more fall, since what falls below half falls from less.
   bool is_one_followed(const std::vector<char>& joints) {
-    lower_along_edges();
-    for (Index v = 0; v < surface_.vertex_count(); ++v)
-      for (Index j = ways_.of_map(v).joint; j != kNone; j = ways_.above(j))
-        if (joints[j] && ways_.at(v, j) >= 0.5) return true;
-    return false;
+    limit_ = 0.5;
+    note_steep(joints);
+    for (Index j = 1; j < count_; ++j)
+      if (joints[j]) lower_along_edges(j);
+    std::vector<char> on_way(count_, 0);
+    std::vector<Index> followers;
+    for (Index v = 0; v < surface_.vertex_count(); ++v) {
+      Index j = ways_.of_map(v).joint;
+      while (j > 0 && !(joints[j] && ways_.at_on_way(v, j) >= 0.5)) j = ways_.above(j);
+      if (j > 0) followers.push_back(v);
+      for (; j > 0; j = ways_.above(j)) on_way[j] = 1;
+    }
+    for (std::vector<Index>& edges : steep_) edges.clear();
+    if (!followers.empty()) note_steep(on_way);
+    for (Index j = 1; j < count_ && !followers.empty(); ++j) {
+      if (!on_way[j]) continue;
+      lower_along_edges(j);
+      followers.erase(std::remove_if(followers.begin(), followers.end(),
+                                     [&](Index v) { return !may_lead(v, j, joints); }),
+                      followers.end());
+    }
+    return !followers.empty();
   }
 
  private:
-  void lower_along_edges() {
-    for (Index j = 1; j < count_; ++j) {
-      for (const Index h : steep_[j]) along_edge(h, ways_.at(surface_.origin[h], j), j);
-      spread_below(j);
-    }
+  // Whether the vertex may follow by half or more one of `joints` that is the joint or below it, or one
+  // above.
+  bool may_lead(Index v, Index joint, const std::vector<char>& joints) const {
+    if (!ways_.is_on_way(v, joint) || ways_.at_on_way(v, joint) >= 0.5) return true;
+    for (Index j = ways_.above(joint); j > 0; j = ways_.above(j))
+      if (joints[j]) return true;
+    return false;
   }
-  // Where shares change by too much along edges, per joint.
-  void note_steep() {
+  void lower_along_edges(Index joint) {
+    begin_spread(joint);
+    for (const Index h : steep_[joint]) along_edge(h, look_up(surface_.origin[h]));
+    spread_below();
+  }
+  // Where shares of `joints` change by too much along edges, per joint.
+  void note_steep(const std::vector<char>& joints) {
     for (Index h = 0; h < surface_.halfedge_count(); ++h) {
       const Index v = surface_.origin[h], w = surface_.target(h);
       const BoneShare &low = ways_.of_map(v), &high = ways_.of_map(w);
       if (low == high) continue;
       for (Index j = high.joint; j > 0; j = ways_.above(j)) {
-        const double rise = (j == high.joint ? high.share : 1.0) - ways_.at(v, j);
-        if (rise > 0 && rise > most_change(h, j)) steep_[j].push_back(h);
+        if (joints[j]) {
+          const double rise = (j == high.joint ? high.share : 1.0) - ways_.at(v, j);
+          if (rise > 0 && rise > most_change(h, j)) steep_[j].push_back(h);
+        }
         if (j == low.joint) break;
       }
     }
   }
   double most_change(Index h, Index joint) const {
     const Vector3 &a = surface_.position[surface_.origin[h]], &b = surface_.position[surface_.target(h)];
-    const double length = (b - a).norm(), far = (0.5 * (a + b) - at_[joint]).norm();
-    const double most = kSteepest * length / std::max(far, 0.5 * length);
-    if (most_[joint].empty()) return most;
-    const auto kept = most_[joint].find(edge(h));
-    return kept == most_[joint].end() ? most : std::min(most, kept->second);
+    const double square = (b - a).squaredNorm(), far = (0.5 * (a + b) - at_[joint]).squaredNorm();
+    return kSteepest * std::sqrt(square / std::max(far, 0.25 * square));
   }
   Index edge(Index h) const { return std::min(h, surface_.twin[h]); }
-  void lower(Index v, Index joint, double share) {
-    ways_.lower(v, joint, share);
-    spread_from(v, share, joint);
+
+  // Of a vertex, to be told once a spread, since most are looked at from all their neighbours.
+  struct Here {
+    Index spread = 0;
+    bool is_lowered = false;
+    double share = 0;
+    double square_far = 0;  // from the joint
+  };
+  void begin_spread(Index joint) {
+    joint_ = joint;
+    changed_[joint].clear();
+    ++spread_;
   }
-  void spread_from(Index v, double share, Index joint) {
+  // Whether the joint allows each edge at v what the one above allows it, being nearer to the edge's middle.
+  bool is_flat_as_above(Index v, const Here& here) const {
+    if (is_halved_[v]) return false;
+    const Vector3 &up = at_[ways_.above(joint_)], bone = at_[joint_] - up;
+    const double nearer = (surface_.position[v] - up).squaredNorm() - here.square_far;
+    return nearer >= 0 && nearer * nearer >= bone.squaredNorm() * longest_square_[v];
+  }
+  Here& look_up(Index v) {
+    Here& here = here_[v];
+    if (here.spread != spread_)
+      here = {spread_, false, ways_.at(v, joint_), (surface_.position[v] - at_[joint_]).squaredNorm()};
+    return here;
+  }
+  void lower(Index v, Here& here, double share) {
+    here.share = share;
+    note_changed(v, here);
+    spread_from(v, share);
+  }
+  void note_changed(Index v, Here& here) {
+    if (!here.is_lowered) changed_[joint_].push_back(v);
+    here.is_lowered = true;
+  }
+  void spread_from(Index v, double share) {
     queue_.push_back({share, v});
-    std::push_heap(queue_.begin(), queue_.end(), std::greater<Item>());
-    if (!is_changed_[v]) changed_[joint].push_back(v);
-    is_changed_[v] = 1;
+    std::push_heap(queue_.begin(), queue_.end());
   }
-  void along_edge(Index h, double here, Index joint) {
+  void along_edge(Index h, const Here& here) {
     const Index w = surface_.target(h);
-    const double there = ways_.at(w, joint);
-    if (there <= here) return;
-    const Vector3 &a = surface_.position[surface_.origin[h]], &b = surface_.position[w];
-    const double rise = there - here, square = (b - a).squaredNorm();
-    const double far = std::max((0.5 * (a + b) - at_[joint]).squaredNorm(), 0.25 * square);
-    if (most_[joint].empty() && kSteepest * kSteepest * square >= rise * rise * far) return;
-    if (const double most = here + most_change(h, joint); most < there) lower(w, joint, most);
+    Here& there = look_up(w);
+    const double rise = there.share - here.share;
+    if (rise <= 0 || here.share >= limit_) return;
+    const double square = (surface_.position[w] - surface_.position[surface_.origin[h]]).squaredNorm();
+    // Of the edge's middle.
+    const double far = std::max(0.5 * (here.square_far + there.square_far) - 0.25 * square, 0.25 * square);
+    const bool is_flat = kSteepest * kSteepest * square >= rise * rise * far;
+    const bool may_be_halved = is_halved_[w] && is_halved_[surface_.origin[h]];
+    if (is_flat && !may_be_halved) return;
+    double most = is_flat ? rise : kSteepest * std::sqrt(square / far);
+    if (may_be_halved)
+      if (const auto kept = most_[joint_].find(edge(h)); kept != most_[joint_].end())
+        most = std::min(most, kept->second);
+    if (const double share = here.share + most; share < std::min(there.share, limit_)) lower(w, there, share);
   }
-  // From what is queued, the lowest first.
-  void spread(Index joint) {
+  // A vertex follows no joint more than the one that it hangs on. Then from what is queued, the lowest first.
+  void spread_below() {
+    const Index above = ways_.above(joint_);
+    for (const Index v : changed_[above]) {
+      Here& here = look_up(v);
+      const double most = ways_.at(v, above);
+      if (!(most < std::min(here.share, limit_))) continue;
+      here.share = most;
+      note_changed(v, here);
+      if (!is_flat_as_above(v, here)) spread_from(v, most);
+    }
     while (!queue_.empty()) {
-      std::pop_heap(queue_.begin(), queue_.end(), std::greater<Item>());
-      const auto [here, v] = queue_.back();
+      std::pop_heap(queue_.begin(), queue_.end());
+      const auto [share, v] = queue_.back();
       queue_.pop_back();
-      if (here > ways_.at(v, joint)) continue;
+      const Here& here = look_up(v);
+      if (share > here.share) continue;
       Index h = surface_.vertex_halfedge[v];
       const Index first = h;
       do {
-        along_edge(h, here, joint);
+        along_edge(h, here);
         h = surface_.next_outgoing(h);
       } while (h != first);
     }
-    for (const Index v : changed_[joint]) is_changed_[v] = 0;
-  }
-  // A vertex follows no joint more than the one that it hangs on.
-  void spread_below(Index joint) {
-    for (const Index v : changed_[ways_.above(joint)])
-      if (const double most = ways_.at(v, ways_.above(joint)); most < ways_.at(v, joint))
-        lower(v, joint, most);
-    spread(joint);
+    for (const Index v : changed_[joint_])
+      if (here_[v].share < ways_.at(v, joint_)) ways_.lower(v, joint_, here_[v].share);
   }
 
+  // Vertices that the next spread of a joint begins at.
+  struct Starts {
+    std::vector<Index> lowered, halved;  // their shares are lower already; faces at them were halved
+  };
   // Until each vertex follows four joints or fewer and no face turns over: of the joints that a vertex has
   // more, the one with the shortest bone has nothing of its own; the edges of a face that turns over keep
   // half of their changes. Each lowers shares by a least step, so it ends.
   void keep_sides() {
-    std::vector<std::vector<Index>> from(count_);
+    std::vector<Starts> from(count_);
     for (Index v = 0; v < surface_.vertex_count(); ++v)
       if (ways_.is_lowered(v)) keep_four(v, from);
     for (Index f = 0; f < surface_.face_count(); ++f) halve_turned(f, from);
     for (bool is_kept = false; !is_kept;) {
       is_kept = true;
       for (Index j = 1; j < count_; ++j) {
-        changed_[j].clear();
-        for (const Index v : from[j]) spread_from(v, ways_.at(v, j), j);
-        from[j].clear();
-        spread_below(j);
+        begin_spread(j);
+        for (const Index v : from[j].lowered) {
+          note_changed(v, look_up(v));
+          spread_from(v, look_up(v).share);
+        }
+        for (const Index v : from[j].halved) spread_from(v, look_up(v).share);
+        from[j].lowered.clear();
+        from[j].halved.clear();
+        spread_below();
         if (!changed_[j].empty()) is_kept = false;
       }
       for (Index j = 1; j < count_; ++j) {
         for (const Index v : changed_[j]) keep_four(v, from);
-        for (const Index f : faces_at(changed_[j])) {
-          const auto v = corners(f);
-          if (TurnedFace(positions(v)).turns_over(at_[j], weights(v, j))) halve(f, j, from[j]);
-        }
+        look_at_faces(j, from[j]);
       }
     }
   }
   std::array<Index, 3> corners(Index f) const {
     return {surface_.origin[3 * f], surface_.origin[3 * f + 1], surface_.origin[3 * f + 2]};
   }
-  std::array<Vector3, 3> positions(const std::array<Index, 3>& v) const {
+  TurnedFace face(const std::array<Index, 3>& v) const {
     return {surface_.position[v[0]], surface_.position[v[1]], surface_.position[v[2]]};
   }
-  std::array<double, 3> weights(const std::array<Index, 3>& v, Index j) const {
-    return {smooth_share(ways_.at(v[0], j)), smooth_share(ways_.at(v[1], j)),
-            smooth_share(ways_.at(v[2], j))};
+  static std::array<double, 3> weights(const std::array<double, 3>& share) {
+    return {smooth_share(share[0]), smooth_share(share[1]), smooth_share(share[2])};
   }
   // The shortest bone first; what hangs on its joint then hangs on the one above.
   void rank_joints() {
@@ -179,12 +255,12 @@ class Slopes {
       }
     }
   }
-  void keep_four(Index v, std::vector<std::vector<Index>>& from) {
+  void keep_four(Index v, std::vector<Starts>& from) {
     for (;;) {
       Index joints = 0, first = kNone;
       double below = 0;
       for (Index j = ways_.of_map(v).joint; j != kNone; j = ways_.above(j)) {
-        const double weight = smooth_share(ways_.at(v, j)), own = weight - below;
+        const double weight = smooth_share(ways_.at_on_way(v, j)), own = weight - below;
         below = weight;
         if (own <= kLeastWeight) continue;
         ++joints;
@@ -194,63 +270,78 @@ class Slopes {
       Index next = kNone;
       for (Index j = ways_.of_map(v).joint; j != first; j = ways_.above(j)) next = j;
       ways_.lower(v, first, next == kNone ? 0.0 : ways_.at(v, next));
-      from[first].push_back(v);
+      from[first].lowered.push_back(v);
     }
   }
-  void halve_turned(Index f, std::vector<std::vector<Index>>& from) {
+  void halve_turned(Index f, std::vector<Starts>& from) {
     const std::array<Index, 3> v = corners(f);
     const auto as_first = [&](Index w) {
       return !ways_.is_lowered(w) && ways_.of_map(w) == ways_.of_map(v[0]);
     };
     if (as_first(v[0]) && as_first(v[1]) && as_first(v[2])) return;
-    const TurnedFace face(positions(v));
+    const TurnedFace turned = face(v);
     for (std::size_t k = 0; k < 3; ++k)
       for (Index j = ways_.of_map(v[k]).joint; j > 0; j = ways_.above(j)) {
         if ((k > 0 && ways_.is_on_way(v[0], j)) || (k > 1 && ways_.is_on_way(v[1], j))) break;
-        const std::array<double, 3> weight = weights(v, j);
-        if (weight[0] == 1 && weight[1] == 1 && weight[2] == 1) break;
-        if (weight[0] == weight[1] && weight[1] == weight[2]) continue;
-        if (face.turns_over(at_[j], weight)) halve(f, j, from[j]);
+        const std::array<double, 3> share{ways_.at(v[0], j), ways_.at(v[1], j), ways_.at(v[2], j)};
+        if (share[0] != share[1] || share[1] != share[2]) {
+          if (turned.turns_over(at_[j], weights(share))) halve(f, j, from[j]);
+        } else if (share[0] == 1) {
+          break;
+        }
       }
   }
-  void halve(Index f, Index joint, std::vector<Index>& from) {
+  void halve(Index f, Index joint, Starts& from) {
     for (Index h = 3 * f; h < 3 * f + 3; ++h) {
       const Index v = surface_.origin[h];
       const double change = std::abs(ways_.at(v, joint) - ways_.at(surface_.target(h), joint)),
                    most = change < 2 * kLeastChange ? 0 : 0.5 * change;
       const auto kept = most_[joint].insert({edge(h), most}).first;
       kept->second = std::min(kept->second, most);
-      from.push_back(v);
+      from.halved.push_back(v);
+      is_halved_[v] = 1;
     }
   }
-  std::vector<Index> faces_at(const std::vector<Index>& vertices) {
+  // Faces without a share that is lower than before keep their side.
+  void look_at_faces(Index joint, Starts& from) {
     ++look_;
-    std::vector<Index> faces;
-    for (const Index v : vertices) {
-      Index h = surface_.vertex_halfedge[v];
+    for (const Index at : changed_[joint]) {
+      Index h = surface_.vertex_halfedge[at];
       const Index first = h;
       do {
-        if (std::exchange(last_look_[h / 3], look_) != look_) faces.push_back(h / 3);
+        if (std::exchange(last_look_[h / 3], look_) != look_) {
+          const auto v = corners(h / 3);
+          const std::array<double, 3> share{ways_.at(v[0], joint), ways_.at(v[1], joint),
+                                            ways_.at(v[2], joint)};
+          if (face(v).turns_over(at_[joint], weights(share))) halve(h / 3, joint, from);
+        }
         h = surface_.next_outgoing(h);
       } while (h != first);
     }
-    return faces;
   }
 
   const SurfaceSnapshot& surface_;
   const Index count_;  // of joints
   JointWays ways_;
-  const std::vector<char> asked_;                        // per joint
   std::vector<Vector3> at_;                              // per joint, in the surface's frame
   std::vector<std::vector<Index>> steep_;                // per joint: half-edges, from low to high
   std::vector<std::unordered_map<Index, double>> most_;  // per joint: of edges of faces that turned over
-  std::vector<std::vector<Index>> changed_;              // per joint: vertices, at the last spread
+  std::vector<char> is_halved_;                          // per vertex: whether at an edge in most_
+  std::vector<std::vector<Index>> changed_;              // per joint: vertices that its last spread lowered
   std::vector<Index> rank_;                              // per joint: which goes first
-  std::vector<char> is_changed_;  // per vertex: whether in the present joint's changed_
+  std::vector<double> longest_square_;                   // per vertex: of its edges
+  double limit_ = 1;                                     // shares become lower where less than this
+  Index joint_ = 0;                                      // of the present spread
+  Index spread_ = 0;
+  std::vector<Here> here_;        // per vertex
   std::vector<Index> last_look_;  // per face
   Index look_ = 0;
-  using Item = std::pair<double, Index>;
-  std::vector<Item> queue_;  // shares of vertices
+  struct Item {
+    double share;
+    Index vertex;
+    bool operator<(const Item& other) const { return share > other.share; }
+  };
+  std::vector<Item> queue_;  // the lowest share first
 };
 
 }  // namespace

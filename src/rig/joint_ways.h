@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "bone_shares.h"
@@ -15,32 +16,38 @@ constexpr double kLeastWeight = 1e-4;
 // one that it hangs on. Shares can only be lowered; vertices where none is take no room of their own.
 class JointWays {
  public:
-  // Keeps references.
+  // Keeps a reference to the shares.
   JointWays(const Rig& rig, const std::vector<BoneShare>& shares);
 
   const BoneShare& of_map(Index v) const { return shares_[v]; }
-  bool is_lowered(Index v) const { return begin_[v] != kNone; }
-  Index above(Index joint) const { return rig_.joints[joint].parent; }
+  bool is_lowered(Index v) const { return rows_[v].top != kNoRow; }
+  Index above(Index joint) const { return above_[joint]; }
   // On joints beside the vertex's way and below it, 0.
-  double at(Index v, Index joint) const {
-    if (!is_on_way(v, joint)) return 0;
-    if (!is_lowered(v)) return joint == shares_[v].joint ? shares_[v].share : 1.0;
-    return level_[joint] < top_[v] ? 1.0 : lowered_[begin_[v] + level_[joint] - top_[v]];
+  double at(Index v, Index joint) const { return is_on_way(v, joint) ? at_on_way(v, joint) : 0.0; }
+  // The joint is on the vertex's way.
+  double at_on_way(Index v, Index joint) const {
+    const Row row = rows_[v];
+    if (level_[joint] >= row.top) return lowered_[row.begin + level_[joint]];
+    return joint == shares_[v].joint ? shares_[v].share : 1.0;
   }
   bool is_on_way(Index v, Index joint) const {
-    return hangs_on_[static_cast<std::size_t>(joint) * rig_.joints.size() + shares_[v].joint] != 0;
+    return hangs_on_[static_cast<std::size_t>(joint) * above_.size() + shares_[v].joint] != 0;
   }
   // The joint is on the vertex's way and its share becomes less.
   void lower(Index v, Index joint, double share);
 
  private:
-  const Rig& rig_;
+  static constexpr Index kNoRow = std::numeric_limits<Index>::max();
+  // A vertex's shares from level `top` on are in lowered_, that of level 0 would be at `begin`.
+  struct Row {
+    Index begin = 0, top = kNoRow;  // kNoRow: as the map says
+  };
+
   const std::vector<BoneShare>& shares_;
+  std::vector<Index> above_;    // per joint: the one that it hangs on
   std::vector<char> hangs_on_;  // per joint, for each: whether it is this one or below it
   std::vector<Index> level_;    // per joint: how many are above it
-  // Per vertex: its shares from level `top_` on are lowered_[begin_] and the following; kNone: as the map
-  // says.
-  std::vector<Index> begin_, top_;
+  std::vector<Row> rows_;       // per vertex
   std::vector<double> lowered_;
 };
 

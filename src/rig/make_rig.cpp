@@ -35,7 +35,7 @@ class Influences {
     way_.clear();
     double below = 0;
     for (Index j = share.joint; j != kNone; j = ways_.above(j)) {
-      const double weight = detail::smooth_share(ways_.at(v, j));
+      const double weight = detail::smooth_share(ways_.at_on_way(v, j));
       way_.push_back({j, weight - below});
       below = weight;
     }

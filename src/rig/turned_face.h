@@ -10,7 +10,8 @@ namespace mspskel::detail {
 
 class TurnedFace {
  public:
-  explicit TurnedFace(const std::array<Vector3, 3>& corner);
+  // Keeps the addresses of the corners.
+  TurnedFace(const Vector3& a, const Vector3& b, const Vector3& c);
 
   // Whether the joint, turned by 45 degrees about some axis, leaves less than a tenth of the face's area on
   // the side that it shows: that which the turn by the mean of its corners' weights gives it. What is safe
@@ -23,7 +24,9 @@ class TurnedFace {
   bool is_safe(double far, const std::array<double, 3>& weight) const;
   bool turns_over_about_axes(const Vector3& joint, const std::array<double, 3>& weight) const;
 
-  std::array<Vector3, 3> x_;
+  const Vector3& x(std::size_t k) const { return *corner_[k]; }
+
+  std::array<const Vector3*, 3> corner_;
   Vector3 normal_, middle_;  // the normal is twice the area long
   std::size_t p_ = 0;        // where the longest edge begins
   double length_ = 0;        // of that edge

@@ -42,15 +42,20 @@ std::vector<double> face_areas(const SurfaceSnapshot& surface) {
   return area;
 }
 
-// Numbers the parts anew, from the largest area to the smallest.
+// Numbers the parts anew, from the largest area to the smallest; numbers without a face go.
 void number_by_area(const std::vector<double>& area_of_face, Segmentation& segmentation) {
-  std::vector<double> area(segmentation.count, 0.0);
-  for (std::size_t f = 0; f < area_of_face.size(); ++f) area[segmentation.part_of_face[f]] += area_of_face[f];
+  std::vector<double> area(segmentation.count, -1.0);
+  for (std::size_t f = 0; f < area_of_face.size(); ++f) {
+    double& sum = area[segmentation.part_of_face[f]];
+    sum = std::max(sum, 0.0) + area_of_face[f];
+  }
   std::vector<Index> order(segmentation.count), number(segmentation.count);
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return area[a] > area[b]; });
   for (Index i = 0; i < segmentation.count; ++i) number[order[i]] = i;
   for (Index& p : segmentation.part_of_face) p = number[p];
+  segmentation.count =
+      static_cast<Index>(std::count_if(area.begin(), area.end(), [](double a) { return a >= 0; }));
 }
 
 // Of each node the part with the most area of the faces whose corners map to it.
@@ -77,6 +82,12 @@ std::vector<Index> parts_of_nodes(const SurfaceSnapshot& surface, const CurveSke
       }
   }
   return part;
+}
+
+// Where the cheapest border is that about a part's tip, all but the tip goes to its neighbour: the rest is no
+// part either, unless so many are wanted.
+double smallest_part(const SegmentOptions& options) {
+  return options.parts.count == 0 ? options.parts.smallest : 0.0;
 }
 
 // The parts on one surface, whose map the skeleton has. The contacts are the input's.
@@ -121,7 +132,7 @@ class Segmenter {
     lost_ = lost_ || !has_all(part, parts.count);
     connect_parts(surface_, part);
     smooth_borders(surface_, costs_, part, options_.border_width);
-    connect_parts(surface_, part);
+    connect_parts(surface_, part, smallest_part(options_));
     return part;
   }
   void split(std::vector<Index>& part, Index least) const {
@@ -163,7 +174,7 @@ std::vector<Index> parts_by_coarse_surface(const SurfaceSnapshot& surface, const
   if (!has_all(part, count)) return {};
   smooth_borders(surface, border_costs(surface, options.creases, near_border), part, options.border_width,
                  kSettling * mean_edge_length(coarse.surface));
-  connect_parts(surface, part);
+  connect_parts(surface, part, smallest_part(options));
   return part;
 }
 

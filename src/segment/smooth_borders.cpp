@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <numeric>
 #include <queue>
 #include <utility>
 
@@ -158,11 +159,13 @@ Pieces find_pieces(const SurfaceSnapshot& surface, const std::vector<Index>& par
   return pieces;
 }
 
-// Per piece: whether it is the largest of its part. Areas tell where a part has several.
-std::vector<char> largest_pieces(const SurfaceSnapshot& surface, const Pieces& pieces) {
+// Per piece: whether it is the largest of its part, and no smaller than this share of the surface. Areas tell
+// where a part has several pieces, or some may be too small.
+std::vector<char> lasting_pieces(const SurfaceSnapshot& surface, const Pieces& pieces, double smallest) {
   std::map<Index, Index> largest;
   for (Index i = 0; i < pieces.count(); ++i) largest.emplace(pieces.part[i], i);
-  if (static_cast<Index>(largest.size()) == pieces.count()) return std::vector<char>(pieces.part.size(), 1);
+  if (!(smallest > 0) && static_cast<Index>(largest.size()) == pieces.count())
+    return std::vector<char>(pieces.part.size(), 1);
   std::vector<double> area(pieces.part.size(), 0.0);
   for (Index f = 0; f < surface.face_count(); ++f)
     area[pieces.of_face[f]] += surface.face_normal_times_twice_area(f).norm();
@@ -170,9 +173,11 @@ std::vector<char> largest_pieces(const SurfaceSnapshot& surface, const Pieces& p
     Index& most = largest[pieces.part[i]];
     if (area[i] > area[most]) most = i;
   }
-  std::vector<char> is_largest(pieces.part.size(), 0);
-  for (const auto& entry : largest) is_largest[entry.second] = 1;
-  return is_largest;
+  const double least = std::min(smallest * std::accumulate(area.begin(), area.end(), 0.0),
+                                *std::max_element(area.begin(), area.end()));
+  std::vector<char> lasts(pieces.part.size(), 0);
+  for (const auto& entry : largest) lasts[entry.second] = area[entry.second] >= least ? 1 : 0;
+  return lasts;
 }
 
 }  // namespace
@@ -184,11 +189,11 @@ void smooth_borders(const SurfaceSnapshot& surface, const std::vector<double>& c
   if (width > 0 && most > 0) BorderSmoother(surface, costs, part_of_face, width, most).run();
 }
 
-void connect_parts(const SurfaceSnapshot& surface, std::vector<Index>& part_of_face) {
+void connect_parts(const SurfaceSnapshot& surface, std::vector<Index>& part_of_face, double smallest) {
   for (bool moved = true; moved;) {
     moved = false;
     const Pieces pieces = find_pieces(surface, part_of_face);
-    const std::vector<char> stays = largest_pieces(surface, pieces);
+    const std::vector<char> stays = lasting_pieces(surface, pieces, smallest);
     if (std::all_of(stays.begin(), stays.end(), [](char s) { return s != 0; })) return;
     // Only pieces that stay take others in, so that each round settles all that touch one.
     std::vector<std::map<Index, double>> shared(pieces.part.size());

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <numeric>
 #include <set>
 
 #include "../../apps/bench/subdivide.h"
@@ -210,6 +211,36 @@ TEST_CASE("stray pieces of a part join what surrounds them") {
   connect_parts(surface, stray);
   const std::set<Index> used(stray.begin(), stray.end());
   CHECK(pieces_of(surface, stray) == static_cast<Index>(used.size()));
+}
+
+TEST_CASE("no part is smaller than the least size") {
+  // Where the cheapest border is that about a part's tip, smoothing takes all but the tip from it.
+  for (const char* name : {"comb", "table"}) {
+    const Shape shape = sample(name);
+    const Segmentation parts = segment_surface(shape.surface, shape.skeleton);
+    std::vector<double> area(parts.count, 0.0);
+    for (Index f = 0; f < shape.surface.face_count(); ++f)
+      area[parts.part_of_face[f]] += shape.surface.face_normal_times_twice_area(f).norm();
+    INFO(name);
+    CHECK(*std::min_element(area.begin(), area.end()) >=
+          PartOptions{}.smallest * std::accumulate(area.begin(), area.end(), 0.0));
+  }
+}
+
+TEST_CASE("a part that is too small joins what surrounds it") {
+  const SurfaceSnapshot surface = make_snapshot(test::to_mesh(make_sample("capsule")));
+  std::vector<Index> part(surface.face_count());
+  for (Index f = 0; f < surface.face_count(); ++f)
+    part[f] = surface.position[surface.origin[3 * f]].z() > 0 ? 1 : 0;
+  std::vector<Index> small = part;
+  for (const Index h : {0, 1, 2}) small[surface.twin[h] / 3] = 2;
+  small[0] = 2;
+  connect_parts(surface, small);
+  CHECK(small[0] == 2);
+  connect_parts(surface, small, 0.01);
+  CHECK(small == part);
+  connect_parts(surface, small, 1.0);
+  CHECK(pieces_of(surface, small) == 1);
 }
 
 TEST_CASE("a ragged border becomes the shorter one") {

@@ -17,9 +17,10 @@ void smooth_borders(const SurfaceSnapshot& surface, const std::vector<double>& c
                     std::vector<Index>& part_of_face, double width,
                     double most = std::numeric_limits<double>::infinity());
 
-// Makes the faces of each part hang together across edges: the piece of the largest area stays, and every
-// other goes to the part with which it shares the longest border. A piece that touches no other part, since
-// it is a component of the surface, stays. O(faces) a round; there are few rounds.
-void connect_parts(const SurfaceSnapshot& surface, std::vector<Index>& part_of_face);
+// Makes the faces of each part hang together across edges: the piece of the largest area stays, unless it is
+// below `smallest` of the surface, and every other goes to the part with which it shares the longest border.
+// A piece that touches no part that stays, since it is a component of the surface, stays. O(faces) a round;
+// there are few rounds.
+void connect_parts(const SurfaceSnapshot& surface, std::vector<Index>& part_of_face, double smallest = 0);
 
 }  // namespace mspskel
