@@ -1,6 +1,7 @@
 #include "checked_extraction.h"
 
 #include "mspskel/base/stopwatch.h"
+#include "mspskel/mesh/self_intersection.h"
 #include "mspskel/skeleton/end_at_openings.h"
 #include "verdict.h"
 
@@ -46,10 +47,7 @@ void extract_from_input(const RunOptions& run, CertificateDepth depth, CheckedEx
 
 bool crosses_itself(const CheckedExtraction& made, CertificateDepth depth, const Execution& execution) {
   if (depth == CertificateDepth::kFull) return made.certificate.self_intersecting;
-  const ExtractResult& result = made.result;
-  const SolidHierarchies solids(result.surface, *result.solid, execution.progress);
-  return certify(result.surface, result.cocycles, solids, result.skeleton, CertificateDepth::kFull, execution)
-      .self_intersecting;
+  return count_self_intersections(made.result.surface, *made.result.solid, 1, execution) > 0;
 }
 
 // Where a surface that crosses itself, or that rounding has crushed, carries no skeleton. A wrap has no open

@@ -40,7 +40,7 @@ inline void validate(const CenteringOptions& o) {
 struct VisibleSection {
   Vector3 centre = Vector3::Zero();  // where rays in opposite directions balance (to first order)
   double radius = 0.0;               // of the disc of equal area
-  double mean_ray = 0.0;             // length
+  double mean_ray = 0.0;             // mean length of the rays
   double half_width = 0.0;           // see slice/detail/region_moments.h
   Vector3 wide = Vector3::Zero();    // unit: along its larger principal axis
   double narrowness = 1.0;           // radius of gyration across `wide` by that along it; 1 for a disc

@@ -1,4 +1,4 @@
-// Where polylines end, and how they grow.
+// How long polylines are, where they end, and how they grow.
 #pragma once
 
 #include <vector>
@@ -7,6 +7,12 @@
 
 namespace mspskel {
 namespace detail {
+
+inline double length_of(const std::vector<Vector3>& points) {
+  double length = 0;
+  for (std::size_t i = 1; i < points.size(); ++i) length += (points[i] - points[i - 1]).norm();
+  return length;
+}
 
 // The point of a polyline at the given length before its last point, or its first point.
 inline Vector3 point_before_end(const std::vector<Vector3>& points, double length) {

@@ -38,14 +38,13 @@ class CornerSearch {
       k = stretch.to;
       const std::optional<Vector3> corner = corner_of(stretch);
       if (!corner) continue;
-      append(line, points_.begin() + static_cast<std::ptrdiff_t>(done),
-             points_.begin() + static_cast<std::ptrdiff_t>(stretch.from) + 1);
+      append(line, done, stretch.from + 1);
       append_straight(line, *corner);
       append_straight(line, points_[stretch.to]);
       done = stretch.to + 1;
       ++corners;
     }
-    append(line, points_.begin() + static_cast<std::ptrdiff_t>(done), points_.end());
+    append(line, done, points_.size());
     return {std::move(line), corners};
   }
 
@@ -64,9 +63,10 @@ class CornerSearch {
     double radius = 0;                                         // the clearance where it starts
   };
 
-  static void append(std::vector<Vector3>& line, std::vector<Vector3>::const_iterator first,
-                     std::vector<Vector3>::const_iterator last) {
-    line.insert(line.end(), first, last);
+  // The arc's points from `first` up to the one before `end`.
+  void append(std::vector<Vector3>& line, std::size_t first, std::size_t end) const {
+    line.insert(line.end(), points_.begin() + static_cast<std::ptrdiff_t>(first),
+                points_.begin() + static_cast<std::ptrdiff_t>(end));
   }
 
   // At the steps of the arc.
@@ -119,19 +119,20 @@ class CornerSearch {
     return {first, last + 1};
   }
 
-  // The line that the well centred way before a stretch leads on along; behind it if `behind`.
-  Line leading_to(const Stretch& stretch, bool behind) {
+  // The line that the well centred way up to a point leads on along: the way from the arc's start, or that
+  // from its end if `back`.
+  Line leading_to(std::size_t point, bool back) {
     constexpr double kReach = 2;  // radii
+    const auto edge_at = [&](std::size_t at) { return back ? at : at - 1; };
+    const std::size_t end = back ? edges_ : 0;
     Line line;
-    std::size_t at = behind ? stretch.to : stretch.from;
-    line.start = points_[at];
-    line.radius = section(behind ? at : at - 1).clearance;
-    double walked = 0;
-    while (at != (behind ? edges_ : 0) && walked < kReach * line.radius) {
-      const std::size_t edge = behind ? at : at - 1;
+    line.start = points_[point];
+    line.radius = section(edge_at(point)).clearance;
+    std::size_t at = point;
+    for (double walked = 0; at != end && walked < kReach * line.radius; at = back ? at + 1 : at - 1) {
+      const std::size_t edge = edge_at(at);
       if (off_centre(edge) > kNear) break;
       walked += (points_[edge + 1] - points_[edge]).norm();
-      at = behind ? at + 1 : at - 1;
     }
     line.along = (line.start - points_[at]).normalized();
     return line;
@@ -142,7 +143,7 @@ class CornerSearch {
     constexpr double kStraight = 0.9;  // the cosine of 25 degrees
     constexpr double kApart = 0.3;     // radii
     if (stretch.from == 0 || stretch.to == edges_) return std::nullopt;
-    const Line before = leading_to(stretch, false), behind = leading_to(stretch, true);
+    const Line before = leading_to(stretch.from, false), behind = leading_to(stretch.to, true);
     const double cosine = before.along.dot(behind.along);
     if (!(std::abs(cosine) <= kStraight)) return std::nullopt;
     const Vector3 between = behind.start - before.start;
@@ -182,8 +183,7 @@ class CornerSearch {
         solid_.segment_crosses(corner, points_[stretch.to]))
       return false;
     std::vector<Vector3> ring{corner};
-    append(ring, points_.begin() + static_cast<std::ptrdiff_t>(stretch.from),
-           points_.begin() + static_cast<std::ptrdiff_t>(stretch.to) + 1);
+    append(ring, stretch.from, stretch.to + 1);
     return !crossings_.goes_round(ring);
   }
 

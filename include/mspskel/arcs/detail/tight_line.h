@@ -126,12 +126,6 @@ class TightLine {
   const CrossingLabels& crossings_;
 };
 
-inline double length_of(const std::vector<Vector3>& points) {
-  double length = 0;
-  for (std::size_t i = 1; i < points.size(); ++i) length += (points[i] - points[i - 1]).norm();
-  return length;
-}
-
 // The way through the middle of the wall with a label, from end to end; nothing where none is found.
 inline std::optional<std::vector<Vector3>> way_of_class(InnerGraph& inner, const CrossingLabels& crossings,
                                                         const Vector3& from, const Vector3& to,

@@ -10,6 +10,7 @@
 #include "mspskel/arcs/detail/hub_components.h"
 #include "mspskel/arcs/detail/in_tubes.h"
 #include "mspskel/arcs/detail/near_vertices.h"
+#include "mspskel/arcs/detail/polyline_ends.h"
 #include "mspskel/arcs/detail/tight_line.h"
 #include "mspskel/arcs/detail/vessel_trees.h"
 #include "mspskel/base/linkage.h"

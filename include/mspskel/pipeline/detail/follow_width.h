@@ -59,8 +59,8 @@ struct WidthDemand {
   double thinnest = 0;  // half width of the thinnest limbs
 };
 
-// From places at equal steps of the area. The thinnest fiftieth of them, where walls touch, counts no more
-// than the next. About ten vertices go round a tube. Cost: O(vertices) and 600 fans.
+// From places at equal steps of the area. Those below the thinnest of the result, where walls touch, count no
+// more than it. About ten vertices go round a tube. Cost: O(vertices) and 600 fans.
 inline WidthDemand demand_of_width(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
                                    const Execution& execution) {
   constexpr int kPlaces = 600;

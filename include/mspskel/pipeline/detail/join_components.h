@@ -140,6 +140,7 @@ inline void add_counts(const RefinementCounts& part, RefinementCounts& whole) {
   whole.joints_merged += part.joints_merged;
   whole.completed += part.completed;
   whole.zips += part.zips;
+  whole.corners += part.corners;
   whole.routing.hubs_moved += part.routing.hubs_moved;
   whole.routing.routed += part.routing.routed;
   whole.routing.unroutable += part.routing.unroutable;

@@ -57,7 +57,6 @@ class WayToTip {
   }
 
  private:
-  static double length_of(const std::vector<Vector3>& points) { return arc_length({{0, 1}, points, true}); }
   std::vector<Vector3> from_hub(Index arc, Index hub) const {
     return points_from(graph_.arcs[arc], graph_.arcs[arc].hub[0] == hub ? 0 : 1);
   }

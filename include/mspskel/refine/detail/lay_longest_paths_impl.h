@@ -47,8 +47,6 @@ class LongestPaths {
   }
 
  private:
-  static double length_of(const std::vector<Vector3>& points) { return arc_length({{0, 1}, points, true}); }
-
   // In its wall any path is as good as another.
   bool is_vessel(Index c) {
     if (!shells_[c]) return false;
