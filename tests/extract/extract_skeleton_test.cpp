@@ -187,7 +187,7 @@ TEST_CASE("A filtered skeleton of a coarser surface goes on to the arcs") {
   options.filter_branches = true;
   options.coarsening.vertices = 100;
   options.coarsening.component_vertices = 20;
-  options.subdivision.vertices = 4;  // where edges are cut, no coarser surface comes with the result
+  options.subdivision.longest = 1;  // where edges are cut, no coarser surface comes with the result
   const ExtractResult result = extract_skeleton(mesh_of({"torus", 350, 0}), options);
   REQUIRE(result.coarse);
   check_topology(result);

@@ -1,6 +1,7 @@
 #include "mspskel/mesh/subdivide_surface.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <numeric>
 
 #include "mspskel/base/error.h"
@@ -48,6 +49,34 @@ DefaultMesh sparse_cross(double length) {
   return from_triangles(points, faces);
 }
 
+// A gear with a bore, one facet long: its teeth are ridges along the whole of it.
+DefaultMesh sparse_gear(int teeth, double length) {
+  constexpr int kPerTooth = 16;
+  constexpr double kBore = 0.4, kFoot = 0.7, kHead = 1;
+  const int n = teeth * kPerTooth;
+  std::vector<Vector3> points;  // the outline below and above, the bore below and above
+  for (const bool bore : {false, true})
+    for (const double z : {0.0, length})
+      for (int i = 0; i < n; ++i) {
+        const double angle = 2 * kPi * i / n, along = static_cast<double>(i % kPerTooth) / kPerTooth;
+        const double radius = bore ? kBore : kFoot + (kHead - kFoot) * std::pow(std::sin(kPi * along), 0.7);
+        points.push_back({radius * std::cos(angle), radius * std::sin(angle), z});
+      }
+  std::vector<std::array<Index, 3>> faces;
+  const auto quad = [&](Index a, Index b, Index c, Index d) {
+    faces.push_back({a, b, c});
+    faces.push_back({a, c, d});
+  };
+  for (int i = 0; i < n; ++i) {
+    const int j = (i + 1) % n;
+    quad(i, j, n + j, n + i);
+    quad(2 * n + j, 2 * n + i, 3 * n + i, 3 * n + j);
+    quad(i, 2 * n + i, 2 * n + j, j);
+    quad(n + i, n + j, 3 * n + j, 3 * n + i);
+  }
+  return from_triangles(points, faces);
+}
+
 }  // namespace
 
 TEST_CASE("Cutting edges keeps the surface, its frame and its vertices") {
@@ -55,7 +84,7 @@ TEST_CASE("Cutting edges keeps the surface, its frame and its vertices") {
     const SurfaceSnapshot before = make_snapshot(mesh);
     const SurfaceSnapshot after = subdivide_surface(before).surface;
     REQUIRE(after.vertex_count() > before.vertex_count());
-    CHECK(after.vertex_count() <= SubdivisionOptions().vertices);
+    CHECK(after.vertex_count() <= before.vertex_count() + SubdivisionOptions().most_added);
     CHECK(area(after) == Approx(area(before)));
     CHECK(after.frame.scale == before.frame.scale);
     CHECK(after.component_count == before.component_count);
@@ -69,17 +98,19 @@ TEST_CASE("Cutting edges keeps the surface, its frame and its vertices") {
   }
 }
 
-TEST_CASE("What is fine enough, or has its vertices, stays") {
-  const SurfaceSnapshot fine = make_snapshot(sphere(1700));
-  CHECK(subdivide_surface(fine).cuts == 0);
+TEST_CASE("What is fine enough, or has been given its vertices, stays") {
   const SurfaceSnapshot box = make_snapshot(cube());
+  const SurfaceSnapshot fine = subdivide_surface(box).surface;
+  CHECK_FALSE(has_long_edge(fine));
+  CHECK(subdivide_surface(fine).cuts == 0);
   SubdivisionOptions options;
   options.longest = 1;
   CHECK(subdivide_surface(box, options).cuts == 0);
   options = {};
-  options.vertices = 20;
+  options.most_added = 12;
+  CHECK(has_long_edge(box, options));
   CHECK(subdivide_surface(box, options).surface.vertex_count() == 20);
-  options.all_vertices = 12;
+  options.most_added_in_all = 4;
   CHECK(subdivide_surface(box, options).surface.vertex_count() == 12);
 }
 
@@ -88,10 +119,10 @@ TEST_CASE("Subdivision options out of range are named") {
   options.longest = 0;
   CHECK_THROWS_AS(validate(options), UsageError);
   options = {};
-  options.vertices = 3;
+  options.most_added = 0;
   CHECK_THROWS_AS(validate(options), UsageError);
   options = {};
-  options.all_vertices = 0;
+  options.most_added_in_all = 0;
   CHECK_THROWS_AS(validate(options), UsageError);
 }
 
@@ -104,6 +135,14 @@ TEST_CASE("A cross of long triangles has all its six arms, and the result is the
   CHECK(result.slices.valid.size() == mesh.n_vertices());
   CHECK(result.skeleton_mesh.position.size() == mesh.n_vertices());
   CHECK(result.cocycles.label.size() == 6 * mesh.n_faces() / 2);
+}
+
+TEST_CASE("The teeth of a long gear of one facet are no limbs, however many vertices its outline has") {
+  for (const int teeth : {8, 20}) {
+    const GraphCounts counts = count_graph(extract_skeleton(sparse_gear(teeth, 2.5)).skeleton);
+    CHECK(counts.leaves == 0);
+    CHECK(counts.cycles == 1);
+  }
 }
 
 TEST_CASE("Isolated vertices are left out, wherever they stand, and change nothing else") {

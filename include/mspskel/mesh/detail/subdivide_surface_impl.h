@@ -10,6 +10,13 @@
 namespace mspskel {
 namespace detail {
 
+// Per component the longest edge that is left as it is.
+inline std::vector<double> longest_edges(const SurfaceSnapshot& surface, const SubdivisionOptions& options) {
+  std::vector<double> longest = component_diagonals(surface);
+  for (double& length : longest) length *= options.longest;
+  return longest;
+}
+
 class EdgeBisection {
  public:
   EdgeBisection(const SurfaceSnapshot& input, const SubdivisionOptions& options)
@@ -18,17 +25,16 @@ class EdgeBisection {
     s_.origin = input.origin;
     s_.twin = input.twin;
     result_.vertex.assign(input.position.size(), kNone);
-    const Index share = options.all_vertices / std::max<Index>(input.component_count, 1);
-    std::fill(left_.begin(), left_.end(), std::min(options.vertices, share));
+    const Index share = options.most_added_in_all / std::max<Index>(input.component_count, 1);
+    std::fill(left_.begin(), left_.end(), std::min(options.most_added, share));
     for (Index v = 0; v < input.vertex_count(); ++v) {
       if (input.vertex_halfedge[v] == kNone) continue;
       result_.vertex[v] = s_.vertex_count();
       s_.position.push_back(input.position[v]);
       s_.component.push_back(input.component[v]);
-      --left_[input.component[v]];
     }
     for (Index& v : s_.origin) v = result_.vertex[v];
-    for (const double diagonal : component_diagonals(input)) longest_.push_back(options.longest * diagonal);
+    longest_ = longest_edges(input, options);
   }
 
   SubdividedSurface run(const ProgressCallback& progress) {
@@ -116,10 +122,22 @@ class EdgeBisection {
 }  // namespace detail
 
 MSPSKEL_INLINE void validate(const SubdivisionOptions& o) {
-  if (o.vertices < 4) throw UsageError("vertices of a subdivided surface must be at least 4");
-  if (o.all_vertices < 4) throw UsageError("vertices of subdivided surfaces must be at least 4");
+  if (o.most_added < 1) throw UsageError("a surface to be subdivided may be given 1 vertex at least");
+  if (o.most_added_in_all < 1) throw UsageError("surfaces to be subdivided may be given 1 vertex at least");
   if (!(o.longest > 0 && o.longest <= 1))
     throw UsageError("the longest edge of a subdivided surface must be from 0 to 1 of the diagonal");
+}
+
+MSPSKEL_INLINE bool has_long_edge(const SurfaceSnapshot& surface, const SubdivisionOptions& options) {
+  validate(options);
+  const std::vector<double> longest = detail::longest_edges(surface, options);
+  for (Index h = 0; h < surface.halfedge_count(); ++h) {
+    const Index v = surface.origin[h];
+    const double length = longest[surface.component[v]];
+    if ((surface.position[v] - surface.position[surface.target(h)]).squaredNorm() > length * length)
+      return true;
+  }
+  return false;
 }
 
 MSPSKEL_INLINE SubdividedSurface subdivide_surface(const SurfaceSnapshot& input,

@@ -53,23 +53,11 @@ MSPSKEL_INLINE void validate(const ExtractOptions& options) {
   validate(options.refinement);
 }
 
-namespace detail {
-
-// Whether some component has fewer vertices than it may be given.
-inline bool may_be_subdivided(const SurfaceSnapshot& surface, const SubdivisionOptions& options) {
-  std::vector<Index> count(static_cast<std::size_t>(surface.component_count), 0);
-  for (const Index c : surface.component)
-    if (c != kNone) ++count[c];
-  return std::any_of(count.begin(), count.end(), [&](Index n) { return n < options.vertices; });
-}
-
-}  // namespace detail
-
 MSPSKEL_INLINE ExtractResult extract_skeleton_of_snapshot(SurfaceSnapshot surface,
                                                           const ExtractOptions& options) {
   validate(options);
   std::optional<SubdividedSurface> fine;
-  if (options.coarsen && detail::may_be_subdivided(surface, options.subdivision))
+  if (options.coarsen && has_long_edge(surface, options.subdivision))
     fine = subdivide_surface(surface, options.subdivision, options.execution);
   ExtractResult result;
   if (fine && fine->cuts > 0) {
