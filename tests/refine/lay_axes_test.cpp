@@ -97,6 +97,28 @@ TEST_CASE("What is longer than wide has its axis along its length, however flat 
   }
 }
 
+TEST_CASE("A cube has its axis across its sides, however it lies, and a plate along its longer one") {
+  for (const double angle : {0.0, 0.7, 2.1}) {
+    const Eigen::Matrix3d turn(Eigen::AngleAxisd(angle, Vector3(0.3, -1, 0.5).normalized()));
+    for (const Vector3& sides : {Vector3(1, 1, 1), Vector3(1.05, 1, 1), Vector3(2, 1.9, 0.2)}) {
+      DefaultMesh box = cube();
+      for (const auto v : box.vertices()) {
+        const Vector3 x =
+            turn * Vector3(box.point(v)[0], box.point(v)[1], box.point(v)[2]).cwiseProduct(sides);
+        box.set_point(v, {x[0], x[1], x[2]});
+      }
+      const Solid solid(box);
+      ArcGraph graph = crooked(solid);
+      REQUIRE(lay_axes(graph, solid.surface, solid.hierarchy, {}) == 1);
+      const Arc& axis = graph.arcs.back();
+      const Vector3 along =
+          (turn.transpose() * (axis.points.back() - axis.points.front()).normalized()).cwiseAbs();
+      CHECK(along.maxCoeff() == Approx(1).epsilon(1e-9));
+      if (sides.x() > 1) CHECK(along.x() > 0.999);
+    }
+  }
+}
+
 TEST_CASE("The skeleton of a block does not depend on its triangles") {
   const auto ends = [](Index rings) {
     const ExtractResult result = extract_skeleton(prism(4, 1.7, rings));

@@ -27,12 +27,23 @@ struct SolidMoments {
   // The axis along the length of a solid that is longer than wide; of others the principal axis whose moment
   // stands apart from the other two by the larger factor.
   Vector3 axis() const {
-    const Vector3 c = centroid();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(second / volume - c * c.transpose());
-    const Vector3 moment = solver.eigenvalues();  // ascending
-    constexpr double kLonger = 1.1;
+    const auto solver = principal_axes();
+    const Vector3 moment = solver.eigenvalues();
     const bool longer = moment[2] > kLonger * kLonger * moment[1];
     return solver.eigenvectors().col(longer || moment[2] * moment[0] > moment[1] * moment[1] ? 2 : 0);
+  }
+  // Whether the axis is longer or shorter than the other two are, so that it tells how the solid lies.
+  bool axis_stands_apart() const {
+    const Vector3 moment = principal_axes().eigenvalues();
+    return moment[2] > kLonger * kLonger * moment[1] || moment[1] > kLonger * kLonger * moment[0];
+  }
+
+ private:
+  static constexpr double kLonger = 1.1;
+
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal_axes() const {  // ascending
+    const Vector3 c = centroid();
+    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(second / volume - c * c.transpose());
   }
 };
 

@@ -6,18 +6,23 @@
 #include <optional>
 
 #include "mspskel/arcs/detail/graph_points.h"
+#include "mspskel/arcs/detail/polyline_ends.h"
 #include "mspskel/arcs/detail/single_arc.h"
 #include "mspskel/base/linkage.h"
+#include "mspskel/mesh/detail/box_direction.h"
 #include "mspskel/skeleton/useless_pieces.h"
 #include "mspskel/solid/detail/axis_stretch.h"
 
 namespace mspskel {
 namespace detail {
 
+// Of a plate's extent, what its axis has to have of it. A bent one has less, and a way of its own.
+inline constexpr double kThrough = 0.5;
+
 // Both ends half the middle ball's radius before the surface. Nothing if that leaves less than `least`.
-inline std::optional<std::vector<Vector3>> axis_points(const SolidMoments& moments, double least,
-                                                       const BoundingVolumeHierarchy& solid) {
-  const auto stretch = axis_stretch(moments, solid);
+inline std::optional<std::vector<Vector3>> axis_points(const SolidMoments& moments, const Vector3& axis,
+                                                       double least, const BoundingVolumeHierarchy& solid) {
+  const auto stretch = axis_stretch(moments, axis, solid);
   if (!stretch) return std::nullopt;
   const auto [from, to] = *stretch;
   const Vector3 centre =
@@ -47,12 +52,25 @@ MSPSKEL_INLINE Index lay_axes(ArcGraph& graph, const SurfaceSnapshot& surface,
   const std::vector<detail::SolidMoments> moments = detail::solid_moments(surface);
   const std::vector<Index> component = detail::components_of_pieces(graph, surface);
   const std::vector<double> extent = component_extents(surface);
+  std::vector<std::optional<std::vector<Vector3>>> points(limbed.size());
+  std::vector<bool> untold(limbed.size(), false);  // whose principal axes do not tell how they lie
+  for (std::size_t c = 0; c < limbed.size(); ++c) {
+    if (limbed[c] || twice_euler[c] != 4 || !moments[c].has_volume()) continue;
+    if (moments[c].axis_stands_apart())
+      points[c] = detail::axis_points(moments[c], moments[c].axis(), 1e-6 * extent[c], solid);
+    untold[c] = !points[c] || detail::length_of(*points[c]) < kLeastPieceLength * extent[c];
+  }
+  const std::vector<detail::FourthMoment> fourth = detail::fourth_moments(surface, moments, untold);
   Index laid = 0;
   for (Index c = 0; c < surface.component_count; ++c) {
-    if (limbed[c] || twice_euler[c] != 4) continue;
-    auto points = detail::axis_points(moments[c], 1e-6 * extent[c], solid);
-    if (!points) continue;
-    detail::replace_by_arc(graph, surface, component, c, std::move(*points));
+    if (untold[c]) {
+      const double least = moments[c].axis_stands_apart() ? detail::kThrough : 1e-6;
+      auto along = detail::axis_points(moments[c], detail::box_direction(moments[c], fourth[c]),
+                                       least * extent[c], solid);
+      if (along) points[c] = std::move(along);
+    }
+    if (!points[c]) continue;
+    detail::replace_by_arc(graph, surface, component, c, std::move(*points[c]));
     ++laid;
   }
   return laid;

@@ -110,11 +110,11 @@ inline bool is_vessel(const SolidMoments& moments, const BoundingVolumeHierarchy
   });
 }
 
-// The axis of a solid as far as it runs inside. Of a block, whose centroid lies inside, it is the principal
-// axis that stands apart, there and back from the centroid. Of a vessel it is the line from the opening
-// through the centroid, and of that the longest stretch, which is the stem or lies in the floor; its moments
-// may well be equal, and a handle turns them.
-inline std::optional<std::array<Vector3, 2>> axis_stretch(const SolidMoments& moments,
+// The axis of a solid as far as it runs inside. Of a block, whose centroid lies inside, it is the given axis,
+// there and back from the centroid. Of a vessel it is the line from the opening through the centroid, and of
+// that the longest stretch, which is the stem or lies in the floor; its moments may well be equal, and a
+// handle turns them.
+inline std::optional<std::array<Vector3, 2>> axis_stretch(const SolidMoments& moments, const Vector3& axis,
                                                           const BoundingVolumeHierarchy& solid) {
   if (!moments.has_volume()) return std::nullopt;
   const Vector3 centre = moments.centroid();
@@ -122,10 +122,16 @@ inline std::optional<std::array<Vector3, 2>> axis_stretch(const SolidMoments& mo
     const auto opening = opening_direction(centre, solid);
     return opening ? longest_stretch(centre, *opening, solid) : std::nullopt;
   }
-  const Vector3 axis = moments.axis();
   const auto back = solid.first_hit(centre, -axis), ahead = solid.first_hit(centre, axis);
   if (!back || !ahead) return std::nullopt;
   return std::array<Vector3, 2>{centre - back->distance * axis, centre + ahead->distance * axis};
+}
+
+// The same along the principal axis that stands apart.
+inline std::optional<std::array<Vector3, 2>> axis_stretch(const SolidMoments& moments,
+                                                          const BoundingVolumeHierarchy& solid) {
+  if (!moments.has_volume()) return std::nullopt;
+  return axis_stretch(moments, moments.axis(), solid);
 }
 
 }  // namespace detail
