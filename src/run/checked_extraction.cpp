@@ -50,11 +50,10 @@ bool crosses_itself(const CheckedExtraction& made, CertificateDepth depth, const
   return count_self_intersections(made.result.surface, *made.result.solid, 1, execution) > 0;
 }
 
-// Where a surface that crosses itself, or that rounding has crushed, carries no skeleton. A wrap has no open
-// ends any more, and is no better than another wrap.
+// Where a surface that crosses itself, or that rounding has crushed, carries no skeleton. A wrap is no better
+// than another wrap.
 bool may_be_wrapped(const CheckedExtraction& made, const RunOptions& run, CertificateDepth depth) {
   return run.repair.wrap_mode == WrapMode::kAuto && !made.failure.empty() && !made.input.wrapped &&
-         made.input.repair.openings.empty() &&
          (made.certificate.inside < least_inside(run) || crosses_itself(made, depth, run.extract.execution));
 }
 
@@ -69,7 +68,7 @@ CheckedExtraction extract_checked(const PolygonSoup& soup, MeshInput&& input, co
   extract_from_input(run, depth, made);
   if (!may_be_wrapped(made, run, depth)) return made;
   CheckedExtraction again;
-  again.input = wrap_mesh(soup, run.repair, run.extract.execution);
+  again.input = wrap_mesh(made.input, soup, run.repair, run.extract.execution);
   extract_from_input(run, depth, again);
   if (!again.failure.empty()) return made;
   std::vector<std::string>& warnings = again.result.warnings;

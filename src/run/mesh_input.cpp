@@ -1,5 +1,6 @@
 #include "mesh_input.h"
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -42,6 +43,18 @@ MeshInput of_wrap(WrappedSoup&& wrapped) {
                                   length_text(input.wrapped->cell) +
                                   " (--wrap never mends what can be mended instead)");
   return input;
+}
+
+PolygonSoup soup_of(const DefaultMesh& mesh) {
+  PolygonSoup soup;
+  for (const auto v : mesh.vertices()) soup.points.push_back(to_vector3(mesh.point(v)));
+  for (const auto f : mesh.faces()) {
+    std::array<Index, 3> corner{};
+    std::size_t k = 0;
+    for (const auto v : mesh.fv_range(f)) corner[k++] = v.idx();
+    soup.add_triangle(corner[0], corner[1], corner[2]);
+  }
+  return soup;
 }
 
 // Where a good part of the surface is made up by what closes it, mending is a guess.
@@ -224,10 +237,24 @@ void write_surface(const MeshInput& input, const RepairSettings& settings) {
   if (!settings.write_mesh.empty()) write_mesh(settings.write_mesh, input.built.mesh);
 }
 
-MeshInput wrap_mesh(const PolygonSoup& soup, const RepairSettings& settings, const Execution& execution) {
-  MeshInput input = of_wrap(wrap_soup(soup, settings.wrapping, execution));
-  input.built.warnings.insert(input.built.warnings.begin(), soup.warnings.begin(), soup.warnings.end());
-  return input;
+MeshInput wrap_mesh(const MeshInput& input, const PolygonSoup& soup, const RepairSettings& settings,
+                    const Execution& execution) {
+  const std::size_t open_ends = input.repair.openings.size();
+  MeshInput wrapped =
+      of_wrap(wrap_soup(open_ends > 0 ? soup_of(input.built.mesh) : soup, settings.wrapping, execution));
+  std::vector<std::string>& warnings = wrapped.built.warnings;
+  if (open_ends > 0) {
+    for (Index& v : wrapped.vertex_of_point = input.vertex_of_point)
+      if (v != kNone) v = wrapped.wrapped->vertex_of_point[v];
+    wrapped.mended = true;
+    wrapped.repair = input.repair;
+    wrapped.repair.openings.clear();
+    warnings.insert(warnings.begin(), {"mended: " + summary(input.repair),
+                                       counted(open_ends, "open end") + " of it " +
+                                           (open_ends == 1 ? "is" : "are") + " covered by the wrap"});
+  }
+  warnings.insert(warnings.begin(), soup.warnings.begin(), soup.warnings.end());
+  return wrapped;
 }
 
 Json counts_json(const MendCounts& c) {

@@ -1,6 +1,7 @@
 """The certificate decides about the exit status, and says what is wrong and where, in both commands."""
 import json
 import math
+import random
 import unittest
 
 from program import DONE, NO_SKELETON, SOURCE, TETRAHEDRON, ProgramTest
@@ -147,7 +148,7 @@ class Crushed(ProgramTest):
     """Coordinates rounded to a twentieth of the extent press thin arms flat: there is no solid in them."""
 
     def crushed(self):
-        return self.rounded(self.sample("octoped", 3000), 20)
+        return self.rounded(self.sample("octoped", 3000), 16)
 
     def rounded(self, mesh, steps):
         lines = (self.folder / mesh).read_text().split("\n")
@@ -167,6 +168,33 @@ class Crushed(ProgramTest):
         result = self.run_program("check", "crushed.off", "a.skel", "--json", "-")
         self.assertEqual((result.returncode, json.loads(result.stdout)["wrapped"]), (DONE, True), result.stderr)
         self.assertEqual(self.run_program("check", "crushed.off", "a.skel", "-q", "--wrap", "never").returncode, NO_SKELETON)
+
+    def test_is_wrapped_with_its_open_ends_closed(self):
+        # A crumpled torus, and beside it a tube that is open at one end.
+        lines = (self.folder / self.sample("torus", 1500)).read_text().split("\n")
+        count = int(lines[1].split()[0])
+        noise = random.Random(1)
+        points = [[float(x) + noise.gauss(0, 0.15) for x in line.split()] for line in lines[2:2 + count]]
+        faces = [[int(v) for v in line.split()[1:]] for line in lines[2 + count:] if line]
+        corners, rings = 12, 20
+        for i in range(rings * corners):
+            angle = 2 * math.pi * i / corners
+            points.append([5 + 0.5 * math.cos(angle), 0.5 * math.sin(angle), 0.3 * (i // corners)])
+        for i in range((rings - 1) * corners):
+            a, b = count + i, count + i // corners * corners + (i + 1) % corners
+            faces += [[a, b, b + corners], [a, b + corners, a + corners]]
+        points.append([5, 0, 0])
+        faces += [[count + (i + 1) % corners, count + i, len(points) - 1] for i in range(corners)]
+        text = [f"OFF\n{len(points)} {len(faces)} 0", *(" ".join(map(repr, x)) for x in points), *(f"3 {a} {b} {c}" for a, b, c in faces)]
+        self.write("open.off", "\n".join(text) + "\n")
+        self.fail_with(NO_SKELETON, "open.off", "a.skel", "-q", "--wrap", "never")
+        result = self.run_program("open.off", "a.skel", "--report", "r.json")
+        self.assertEqual(result.returncode, DONE, result.stderr)
+        self.assertRegex(result.stderr.decode(), "1 open end of it is covered by the wrap")
+        report = json.loads((self.folder / "r.json").read_text())
+        self.assertEqual((report["repair"]["wrapped"], report["repair"]["openings"], report["checks"]["inside"]), (True, [], 1))
+        result = self.run_program("check", "open.off", "a.skel", "--json", "-")
+        self.assertEqual((result.returncode, json.loads(result.stdout)["wrapped"]), (DONE, True), result.stderr)
 
     def test_is_wrapped_where_no_loop_fits_a_surface_that_crosses_itself(self):
         self.assertEqual(self.run_program("sample", "vase", "vase.off", "--count", 3).returncode, DONE)
