@@ -86,8 +86,11 @@ class Scene {
         assembly_(limit_) {}
 
   PolygonSoup read() {
-    if (member(member(document_, "asset"), "version").is_null())
-      throw ReadError("it has no asset with a version");
+    const json& version = member(member(document_, "asset"), "version");
+    if (version.is_null()) throw ReadError("it has no asset with a version");
+    if (const std::string text = version.is_string() ? version.get<std::string>() : version.dump();
+        text.substr(0, 2) != "2.")
+      throw ReadError("it is glTF " + text + ", not 2");
     visited_.assign(member(document_, "nodes").size(), 0);
     for (const std::size_t root : roots()) visit(root);
     PolygonSoup soup = assembly_.take();

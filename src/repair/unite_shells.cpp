@@ -156,6 +156,23 @@ std::vector<std::vector<Index>> crossing_shells(const SurfaceSnapshot& surface, 
   return detail::crossing_groups(surface, detail::shells_of(surface), execution.progress);
 }
 
+bool has_repeated_shells(const SurfaceSnapshot& surface) {
+  if (surface.component_count < 2) return false;
+  const auto before = [](const Vector3& a, const Vector3& b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+  };
+  std::vector<std::vector<Vector3>> places;
+  for (const Shell& shell : detail::shells_of(surface)) {
+    std::vector<Vector3>& own = places.emplace_back();
+    for (const Index v : shell.vertices) own.push_back(surface.position[v]);
+    std::sort(own.begin(), own.end(), before);
+  }
+  std::sort(places.begin(), places.end(), [&](const auto& a, const auto& b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), before);
+  });
+  return std::adjacent_find(places.begin(), places.end()) != places.end();
+}
+
 UnitedShells unite_shells(const SurfaceSnapshot& surface, const std::vector<std::vector<Index>>& groups,
                           const UniteOptions& options, const Execution& execution) {
   validate(options);

@@ -227,6 +227,10 @@ MeshInput prepare_mesh(const PolygonSoup& soup, const RepairSettings& settings, 
     else
       refuse_sheets(input.repair.counts);
   }
+  // A part that the file holds twice is one: mending welds the two and drops the faces that repeat.
+  if (settings.unite && settings.repair && !input.mended && !input.wrapped &&
+      input.built.component_count > 1 && has_repeated_shells(make_snapshot(input.built.mesh)))
+    input = mend(soup, settings);
   if (settings.unite && !input.wrapped) join_shells(input, soup, settings, execution);
   input.built.warnings.insert(input.built.warnings.begin(), soup.warnings.begin(), soup.warnings.end());
   write_surface(input, settings);

@@ -155,6 +155,15 @@ class Repair(ProgramTest):
         self.run_program("two.off", "a.skel", "--report", "a.json", "--shells", "each")
         self.assertEqual(json.loads((self.folder / "a.json").read_text())["skeleton"]["components"], 2)
 
+    def test_a_part_that_is_there_twice_is_one(self):
+        points, faces = read_off(self.folder / self.sample("torus", 600))
+        write_off(self.folder / "twice.off", points + points, faces + [tuple(v + len(points) for v in f) for f in faces])
+        self.assertIn(f"{len(faces)} repeated faces dropped", self.mended("twice.off", "a.skel", "--report", "a.json"))
+        report = json.loads((self.folder / "a.json").read_text())
+        self.assertEqual((report["skeleton"]["components"], report["skeleton"]["cycles"]), (1, 1))
+        self.run_program("twice.off", "a.skel", "--report", "a.json", "--shells", "each")
+        self.assertEqual(json.loads((self.folder / "a.json").read_text())["skeleton"]["components"], 2)
+
     def test_numbers_of_another_surface_are_told(self):
         """Files that number faces or vertices say so where those are not the mesh's."""
         self.two_crossing_capsules()

@@ -55,6 +55,15 @@ void check_refused(const json& changed, const std::string& what) {
 
 }  // namespace
 
+TEST_CASE("glTF: another version is named, whatever else is in the file") {
+  json changed = document();
+  changed["asset"]["version"] = "1.0";
+  changed["scene"] = "main";
+  check_refused(changed, "it is glTF 1.0, not 2");
+  changed["asset"]["version"] = 1;
+  check_refused(changed, "it is glTF 1, not 2");
+}
+
 TEST_CASE("glTF: one mesh, in a binary file, beside its buffer, and with the buffer inside") {
   check_tetrahedron(gltf(glb(document())));
   json inside = document();

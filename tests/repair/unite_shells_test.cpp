@@ -88,6 +88,16 @@ TEST_CASE("apart, within each other, linked or in contact: nothing to unite") {
   CHECK_FALSE(unite(together({ring, turned})));
 }
 
+TEST_CASE("a part that is there twice is told, and one that is moved is none") {
+  const auto repeated = [](const PolygonSoup& soup) {
+    return has_repeated_shells(make_snapshot(build_mesh(soup)));
+  };
+  CHECK(repeated(together({kAlongX, kAlongY, kAlongX})));
+  CHECK_FALSE(repeated(together({kAlongX, kAlongY})));
+  CHECK_FALSE(repeated(together({kAlongX, shifted(kAlongX, {0, 1e-3, 0})})));
+  CHECK_FALSE(repeated(kAlongX));
+}
+
 TEST_CASE("walls thinner than the grid's cells do not become sieves") {
   // A plate a thousandth as thick as wide, and a post through it.
   const PolygonSoup plate = box({-4, -4, -0.002}, {4, 4, 0.002});

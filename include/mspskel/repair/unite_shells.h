@@ -35,6 +35,10 @@ struct UnitedShells {
 std::vector<std::vector<Index>> crossing_shells(const SurfaceSnapshot& surface,
                                                 const Execution& execution = {});
 
+// Whether two components have all their vertices in the same places: a part that a file holds twice. They
+// touch everywhere and cross nowhere. O(vertices log vertices).
+bool has_repeated_shells(const SurfaceSnapshot& surface);
+
 // Each group of crossing_shells becomes the boundary of the union of their solids.
 //   The union is sampled at the nodes of a grid near the surface: inside where a shell's own solid has the
 // node. Each cube of the grid is six tetrahedra about one diagonal (Kuhn 1960), and what separates inside
