@@ -1,7 +1,10 @@
 // Arcs end in the middle of open ends, and their radii are the wall's.
 #include "mspskel/skeleton/end_at_openings.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
 
 #include "mspskel/extract_skeleton.h"
 #include "mspskel/mesh/build_mesh.h"
@@ -63,6 +66,63 @@ TEST_CASE("a tube's skeleton ends at the centres of both openings, with the tube
     REQUIRE(solid.inside(result.surface.frame.to_normalised(node.position)));
   }
   REQUIRE(report_surface_map(result.surface, result.skeleton).partition);
+}
+
+namespace {
+
+// An opening of a given radius round the vertex nearest to a place on the side of a tube about the z axis.
+Opening opening_at(const SurfaceSnapshot& surface, const Vector3& at, double radius) {
+  Opening opening;
+  opening.radius = radius;
+  for (Index v = 0; v < surface.vertex_count(); ++v) {
+    const Vector3 p = surface.frame.to_model(surface.position[v]);
+    if (opening.vertex != kNone && (p - at).norm() >= (opening.centre - at).norm()) continue;
+    opening.vertex = v;
+    opening.centre = p;
+  }
+  opening.normal = Vector3(opening.centre.x(), opening.centre.y(), 0).normalized();
+  return opening;
+}
+
+// The sharpest turn at a node with two neighbours, radians.
+double sharpest_turn(const CurveSkeleton& skeleton) {
+  double sharpest = 0;
+  const auto neighbours = adjacency(skeleton);
+  for (std::size_t i = 0; i < neighbours.size(); ++i) {
+    if (neighbours[i].size() != 2) continue;
+    const Vector3& here = skeleton.nodes[i].position;
+    const Vector3 in = here - skeleton.nodes[neighbours[i][0]].position,
+                  out = skeleton.nodes[neighbours[i][1]].position - here;
+    sharpest = std::max(sharpest, std::atan2(in.cross(out).norm(), in.dot(out)));
+  }
+  return sharpest;
+}
+
+}  // namespace
+
+TEST_CASE("an arc that passes a hole in the side of its end turns into it, and not back") {
+  ExtractResult result = extract_skeleton(tube(1, 8, 24, 32));
+  const BoundingVolumeHierarchy solid(result.surface);
+  double top = 0;
+  for (const SkeletonNode& node : result.skeleton.nodes) top = std::max(top, node.position.z());
+  const Opening side = opening_at(result.surface, {1, 0, top - 1.2}, 0.9);
+  REQUIRE(end_at_openings(result.skeleton, result.surface, solid, {side}, 0.008).led == 1);
+  CHECK(nearest_leaf(result.skeleton, side.centre) < 0.05);
+  CHECK(count_graph(result.skeleton).leaves == 2);
+  CHECK(sharpest_turn(result.skeleton) < 1.1);
+  CHECK(report_surface_map(result.surface, result.skeleton).partition);
+}
+
+TEST_CASE("an opening without a leaf gets an arc that leaves the ends at other openings alone") {
+  ExtractResult result = extract_skeleton(tube(1, 5, 24, 20));
+  const BoundingVolumeHierarchy solid(result.surface);
+  double top = 0;
+  for (const SkeletonNode& node : result.skeleton.nodes) top = std::max(top, node.position.z());
+  const std::vector<Opening> openings{opening_at(result.surface, {1, 0, top - 0.5}, 1),
+                                      opening_at(result.surface, {-1, 0, top - 0.5}, 1)};
+  REQUIRE(end_at_openings(result.skeleton, result.surface, solid, openings, 0.008).added == 1);
+  for (const Opening& opening : openings) CHECK(nearest_leaf(result.skeleton, opening.centre) < 0.05);
+  CHECK(count_graph(result.skeleton).leaves == 3);
 }
 
 TEST_CASE("without openings nothing changes") {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "mspskel/base/linkage.h"
 #include "mspskel/skeleton/surface_map.h"
@@ -52,6 +54,7 @@ class EndAtOpening {
       ++ends.added;
     else
       ++ends.missing;
+    done_.push_back(opening_);
   }
 
   bool changed() const { return changed_; }
@@ -75,22 +78,28 @@ class EndAtOpening {
                                    surface_.frame.to_normalised(end_));
   }
 
-  // The nodes from the leaf on that are nearer than a radius are laid anew, in a line.
+  // The nodes from the leaf on that are nearer than a radius are laid anew, in a line, and so are those from
+  // which the end lies aside of where the arc goes or behind it. A leaf outside the opening whose arc never
+  // goes there stands for something else.
   bool lead(Index leaf) {
     std::vector<Index> tail{leaf};
     Index before = kNone, from = leaf;
+    const auto next = [&] {
+      return neighbours_[from][0] == before && neighbours_[from].size() > 1 ? neighbours_[from][1]
+                                                                            : neighbours_[from][0];
+    };
     const auto advance = [&] {
-      const Index next = neighbours_[from][0] == before && neighbours_[from].size() > 1
-                             ? neighbours_[from][1]
-                             : neighbours_[from][0];
+      const Index to = next();
       before = from;
-      from = next;
+      from = to;
     };
     advance();
-    while (neighbours_[from].size() == 2 && distance(from) < opening_->radius) {
+    while (neighbours_[from].size() == 2 && !taken_[from] &&
+           (distance(from) < opening_->radius || turns_aside(next(), from))) {
       tail.push_back(from);
       advance();
     }
+    if (neighbours_[from].size() != 2 && distance(leaf) > opening_->radius) return false;
     for (; !sees_end(from); tail.pop_back()) {
       if (tail.empty()) return false;
       from = tail.back();
@@ -100,16 +109,32 @@ class EndAtOpening {
     return true;
   }
 
+  // Whether an arc that comes from one node to the next turns by more than 60 degrees where it goes on to the
+  // end.
+  bool turns_aside(Index from, Index to) const {
+    constexpr double kLeastCosine = 0.5;
+    const Vector3 along = place(to) - place(from), way = end_ - place(to);
+    return along.dot(way) < kLeastCosine * along.norm() * way.norm();
+  }
+
+  // From the nearest node that sees the end; how far it lies in another opening counts twice.
   bool add_arc() {
-    std::vector<Index> order(neighbours_.size());
-    for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<Index>(i);
-    std::sort(order.begin(), order.end(), [&](Index a, Index b) {
-      return distance(a) != distance(b) ? distance(a) < distance(b) : a < b;
-    });
-    const auto seen = std::find_if(order.begin(), order.end(), [&](Index i) { return sees_end(i); });
+    std::vector<std::pair<double, Index>> order;
+    for (Index i = 0; i < static_cast<Index>(neighbours_.size()); ++i)
+      if (!(taken_[i] && is_leaf(i))) order.emplace_back(distance(i) + 2 * depth_in_other_opening(i), i);
+    std::sort(order.begin(), order.end());
+    const auto seen =
+        std::find_if(order.begin(), order.end(), [&](const auto& entry) { return sees_end(entry.second); });
     if (seen == order.end()) return false;
-    lay(*seen, {});
+    lay(seen->second, {});
     return true;
+  }
+
+  double depth_in_other_opening(Index node) const {
+    double depth = 0;
+    for (const Opening* other : done_)
+      depth = std::max(depth, other->radius - (place(node) - other->centre).norm());
+    return depth;
   }
 
   // Places the nodes of the chain, which begins beside `from`, and as many more as the step asks for.
@@ -164,8 +189,9 @@ class EndAtOpening {
   const BoundingVolumeHierarchy& wall_;
   const double step_;  // model units
   std::vector<std::vector<Index>> neighbours_;
-  std::vector<char> taken_;  // nodes of ends that lie at openings already
+  std::vector<char> taken_;  // nodes that were laid to openings
   const Opening* opening_ = nullptr;
+  std::vector<const Opening*> done_;
   Vector3 end_;
   bool changed_ = false;
 };
