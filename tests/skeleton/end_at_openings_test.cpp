@@ -119,7 +119,7 @@ TEST_CASE("an opening without a leaf gets an arc that leaves the ends at other o
   double top = 0;
   for (const SkeletonNode& node : result.skeleton.nodes) top = std::max(top, node.position.z());
   const std::vector<Opening> openings{opening_at(result.surface, {1, 0, top - 0.5}, 1),
-                                      opening_at(result.surface, {-1, 0, top - 0.5}, 1)};
+                                      opening_at(result.surface, {0.75, 0.66, top - 0.5}, 1)};
   REQUIRE(end_at_openings(result.skeleton, result.surface, solid, openings, 0.008).added == 1);
   for (const Opening& opening : openings) CHECK(nearest_leaf(result.skeleton, opening.centre) < 0.05);
   CHECK(count_graph(result.skeleton).leaves == 3);
