@@ -123,6 +123,10 @@ TEST_CASE("an opening without a leaf gets an arc that leaves the ends at other o
   REQUIRE(end_at_openings(result.skeleton, result.surface, solid, openings, 0.008).added == 1);
   for (const Opening& opening : openings) CHECK(nearest_leaf(result.skeleton, opening.centre) < 0.05);
   CHECK(count_graph(result.skeleton).leaves == 3);
+  const auto neighbours = adjacency(result.skeleton);
+  for (std::size_t i = 0; i < neighbours.size(); ++i)
+    if (neighbours[i].size() > 2)
+      CHECK((result.skeleton.nodes[i].position - openings[0].centre).norm() > 0.75);
 }
 
 TEST_CASE("without openings nothing changes") {
