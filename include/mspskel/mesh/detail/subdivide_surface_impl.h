@@ -12,8 +12,12 @@ namespace detail {
 
 // Per component the longest edge that is left as it is.
 inline std::vector<double> longest_edges(const SurfaceSnapshot& surface, const SubdivisionOptions& options) {
+  std::vector<Index> count(static_cast<std::size_t>(surface.component_count), 0);
+  for (const Index c : surface.component)
+    if (c != kNone) ++count[c];
   std::vector<double> longest = component_diagonals(surface);
-  for (double& length : longest) length *= options.longest;
+  for (std::size_t c = 0; c < longest.size(); ++c)
+    longest[c] *= count[c] < options.enough ? options.longest : 1.0;
   return longest;
 }
 
@@ -122,6 +126,7 @@ class EdgeBisection {
 }  // namespace detail
 
 MSPSKEL_INLINE void validate(const SubdivisionOptions& o) {
+  if (o.enough < 1) throw UsageError("vertices that are enough for a surface must be at least 1");
   if (o.most_added < 1) throw UsageError("a surface to be subdivided may be given 1 vertex at least");
   if (o.most_added_in_all < 1) throw UsageError("surfaces to be subdivided may be given 1 vertex at least");
   if (!(o.longest > 0 && o.longest <= 1))
