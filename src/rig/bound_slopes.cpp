@@ -29,14 +29,10 @@ class Slopes {
         is_halved_(surface.vertex_count(), 0),
         changed_(rig.joints.size()),
         here_(surface.vertex_count()),
-        last_look_(surface.face_count(), 0) {
+        last_look_(surface.face_count(), 0),
+        turned_at_(surface.face_count(), kNone),
+        longest_square_(surface.vertex_count(), -1.0) {
     for (const RigJoint& joint : rig.joints) at_.push_back(surface.frame.to_normalised(joint.position));
-    longest_square_.assign(surface.vertex_count(), 0.0);
-    for (Index h = 0; h < surface.halfedge_count(); ++h) {
-      const Index v = surface.origin[h], w = surface.target(h);
-      const double square = (surface.position[w] - surface.position[v]).squaredNorm();
-      longest_square_[v] = std::max(longest_square_[v], square);
-    }
   }
 
   JointWays lower_all() {
@@ -91,6 +87,10 @@ class Slopes {
   // Where shares of `joints` change by too much along edges, per joint.
   void note_steep(const std::vector<char>& joints) {
     for (Index h = 0; h < surface_.halfedge_count(); ++h) {
+      if (h % 3 == 0 && is_even(h / 3)) {
+        h += 2;
+        continue;
+      }
       const Index v = surface_.origin[h], w = surface_.target(h);
       const BoneShare &low = ways_.of_map(v), &high = ways_.of_map(w);
       if (low == high) continue;
@@ -102,6 +102,11 @@ class Slopes {
         if (j == low.joint) break;
       }
     }
+  }
+  bool is_even(Index f) const {
+    const BoneShare& first = ways_.of_map(surface_.origin[3 * f]);
+    return first == ways_.of_map(surface_.origin[3 * f + 1]) &&
+           first == ways_.of_map(surface_.origin[3 * f + 2]);
   }
   double most_change(Index h, Index joint) const {
     const Vector3 &a = surface_.position[surface_.origin[h]], &b = surface_.position[surface_.target(h)];
@@ -123,11 +128,22 @@ class Slopes {
     ++spread_;
   }
   // Whether the joint allows each edge at v what the one above allows it, being nearer to the edge's middle.
-  bool is_flat_as_above(Index v, const Here& here) const {
+  bool is_flat_as_above(Index v, const Here& here) {
     if (is_halved_[v]) return false;
     const Vector3 &up = at_[ways_.above(joint_)], bone = at_[joint_] - up;
     const double nearer = (surface_.position[v] - up).squaredNorm() - here.square_far;
-    return nearer >= 0 && nearer * nearer >= bone.squaredNorm() * longest_square_[v];
+    return nearer >= 0 && nearer * nearer >= bone.squaredNorm() * longest_square(v);
+  }
+  // Of the edges at a vertex.
+  double longest_square(Index v) {
+    double& longest = longest_square_[v];
+    if (longest < 0) {
+      longest = 0;
+      for_each_neighbour(surface_, v, [&](Index w) {
+        longest = std::max(longest, (surface_.position[w] - surface_.position[v]).squaredNorm());
+      });
+    }
+    return longest;
   }
   Here& look_up(Index v) {
     Here& here = here_[v];
@@ -149,10 +165,11 @@ class Slopes {
     std::push_heap(queue_.begin(), queue_.end());
   }
   void along_edge(Index h, const Here& here) {
-    const Index w = surface_.target(h);
+    if (here.share >= limit_) return;
+    const Index w = surface_.origin[surface_.twin[h]];
     Here& there = look_up(w);
     const double rise = there.share - here.share;
-    if (rise <= 0 || here.share >= limit_) return;
+    if (rise <= 0) return;
     const double square = (surface_.position[w] - surface_.position[surface_.origin[h]]).squaredNorm();
     // Of the edge's middle.
     const double far = std::max(0.5 * (here.square_far + there.square_far) - 0.25 * square, 0.25 * square);
@@ -228,8 +245,13 @@ class Slopes {
   std::array<Index, 3> corners(Index f) const {
     return {surface_.origin[3 * f], surface_.origin[3 * f + 1], surface_.origin[3 * f + 2]};
   }
-  TurnedFace face(const std::array<Index, 3>& v) const {
-    return {surface_.position[v[0]], surface_.position[v[1]], surface_.position[v[2]]};
+  // Most are looked at for several joints.
+  const TurnedFace& turned(Index f, const std::array<Index, 3>& v) {
+    if (turned_at_[f] == kNone) {
+      turned_at_[f] = static_cast<Index>(turned_.size());
+      turned_.emplace_back(surface_.position[v[0]], surface_.position[v[1]], surface_.position[v[2]]);
+    }
+    return turned_[turned_at_[f]];
   }
   static std::array<double, 3> weights(const std::array<double, 3>& share) {
     return {smooth_share(share[0]), smooth_share(share[1]), smooth_share(share[2])};
@@ -256,7 +278,7 @@ class Slopes {
     }
   }
   void keep_four(Index v, std::vector<Starts>& from) {
-    for (;;) {
+    while (ways_.level(ways_.of_map(v).joint) > 3) {
       Index joints = 0, first = kNone;
       double below = 0;
       for (Index j = ways_.of_map(v).joint; j != kNone; j = ways_.above(j)) {
@@ -279,17 +301,27 @@ class Slopes {
       return !ways_.is_lowered(w) && ways_.of_map(w) == ways_.of_map(v[0]);
     };
     if (as_first(v[0]) && as_first(v[1]) && as_first(v[2])) return;
-    const TurnedFace turned = face(v);
-    for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t k = 0; k < 3; ++k) {
+      bool is_common = false;
       for (Index j = ways_.of_map(v[k]).joint; j > 0; j = ways_.above(j)) {
-        if ((k > 0 && ways_.is_on_way(v[0], j)) || (k > 1 && ways_.is_on_way(v[1], j))) break;
-        const std::array<double, 3> share{ways_.at(v[0], j), ways_.at(v[1], j), ways_.at(v[2], j)};
+        std::array<double, 3> share{};
+        if (!is_common) {
+          const std::array<bool, 3> on{ways_.is_on_way(v[0], j), ways_.is_on_way(v[1], j),
+                                       ways_.is_on_way(v[2], j)};
+          if ((k > 0 && on[0]) || (k > 1 && on[1])) break;
+          is_common = on[0] && on[1] && on[2];
+          for (std::size_t i = 0; i < 3; ++i)
+            if (on[i]) share[i] = ways_.at_on_way(v[i], j);
+        } else {
+          for (std::size_t i = 0; i < 3; ++i) share[i] = ways_.at_on_way(v[i], j);
+        }
         if (share[0] != share[1] || share[1] != share[2]) {
-          if (turned.turns_over(at_[j], weights(share))) halve(f, j, from[j]);
+          if (turned(f, v).turns_over(at_[j], weights(share))) halve(f, j, from[j]);
         } else if (share[0] == 1) {
           break;
         }
       }
+    }
   }
   void halve(Index f, Index joint, Starts& from) {
     for (Index h = 3 * f; h < 3 * f + 3; ++h) {
@@ -313,7 +345,8 @@ class Slopes {
           const auto v = corners(h / 3);
           const std::array<double, 3> share{ways_.at(v[0], joint), ways_.at(v[1], joint),
                                             ways_.at(v[2], joint)};
-          if (face(v).turns_over(at_[joint], weights(share))) halve(h / 3, joint, from);
+          const bool is_even = share[0] == share[1] && share[1] == share[2];
+          if (!is_even && turned(h / 3, v).turns_over(at_[joint], weights(share))) halve(h / 3, joint, from);
         }
         h = surface_.next_outgoing(h);
       } while (h != first);
@@ -329,13 +362,15 @@ class Slopes {
   std::vector<char> is_halved_;                          // per vertex: whether at an edge in most_
   std::vector<std::vector<Index>> changed_;              // per joint: vertices that its last spread lowered
   std::vector<Index> rank_;                              // per joint: which goes first
-  std::vector<double> longest_square_;                   // per vertex: of its edges
   double limit_ = 1;                                     // shares become lower where less than this
   Index joint_ = 0;                                      // of the present spread
   Index spread_ = 0;
   std::vector<Here> here_;        // per vertex
   std::vector<Index> last_look_;  // per face
   Index look_ = 0;
+  std::vector<Index> turned_at_;  // per face: place in turned_, or kNone
+  std::vector<TurnedFace> turned_;
+  std::vector<double> longest_square_;  // per vertex: of its edges; negative: not known
   struct Item {
     double share;
     Index vertex;
