@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <queue>
 #include <tuple>
@@ -36,13 +37,16 @@ class PieceMerger {
     count_ = surface.face_count();
     for (Index f = 0; f < count_; ++f) area_.push_back(0.5 * surface.face_normal_times_twice_area(f).norm());
     total_ = std::accumulate(area_.begin(), area_.end(), 0.0);
+    for (Borders& borders : border_) borders.reserve(3);
     for (Index h = 0; h < surface.halfedge_count(); ++h) {
       const Index f = h / 3, g = surface.twin[h] / 3;
       if (f != g && part_of_face[f] == part_of_face[g]) add(border_[f], g, costs[h]);
     }
+    std::vector<Pair> pairs;
     for (Index f = 0; f < count_; ++f)
       for (const auto& [g, cost] : border_[f])
-        if (f < g) push(f, g, cost);
+        if (f < g) pairs.push_back({worth(f, g, cost), f, g});
+    queue_ = std::priority_queue<Pair>(std::less<Pair>(), std::move(pairs));
   }
 
   void run() {
@@ -75,7 +79,9 @@ class PieceMerger {
     Worth worth;
     Index a, b;  // a < b
     bool operator<(const Pair& other) const {
-      return std::tie(worth, other.a, other.b) < std::tie(other.worth, a, b);
+      if (worth.first != other.worth.first) return worth.first < other.worth.first;
+      if (worth.second != other.worth.second) return worth.second < other.worth.second;
+      return std::tie(other.a, other.b) < std::tie(a, b);
     }
   };
 
