@@ -186,9 +186,11 @@ class Slopes {
   void spread_below() {
     const Index above = ways_.above(joint_);
     for (const Index v : changed_[above]) {
+      if (!ways_.is_on_way(v, joint_)) continue;
+      const double most = ways_.at_on_way(v, above);
+      if (!(most < std::min(ways_.at_on_way(v, joint_), limit_))) continue;
       Here& here = look_up(v);
-      const double most = ways_.at(v, above);
-      if (!(most < std::min(here.share, limit_))) continue;
+      if (!(most < here.share)) continue;
       here.share = most;
       note_changed(v, here);
       if (!is_flat_as_above(v, here)) spread_from(v, most);

@@ -36,7 +36,10 @@ class JointWays {
     return hangs_on_[static_cast<std::size_t>(joint) * above_.size() + shares_[v].joint] != 0;
   }
   // The joint is on the vertex's way and its share becomes less.
-  void lower(Index v, Index joint, double share);
+  void lower(Index v, Index joint, double share) {
+    if (level_[joint] < rows_[v].top) make_room(v, joint);
+    lowered_[rows_[v].begin + level_[joint]] = share;
+  }
 
  private:
   static constexpr Index kNoRow = std::numeric_limits<Index>::max();
@@ -44,6 +47,8 @@ class JointWays {
   struct Row {
     Index begin = 0, top = kNoRow;  // kNoRow: as the map says
   };
+
+  void make_room(Index v, Index joint);
 
   const std::vector<BoneShare>& shares_;
   std::vector<Index> above_;    // per joint: the one that it hangs on
