@@ -63,7 +63,8 @@ TurnedFace::TurnedFace(const Vector3& a, const Vector3& b, const Vector3& c)
   foot_ = (x((p_ + 2) % 3) - p).dot(x((p_ + 1) % 3) - p) / (length_ * length_);
 }
 
-bool TurnedFace::turns_over(const Vector3& joint, const std::array<double, 3>& weight) const {
+MSPSKEL_AVX_CLONES bool TurnedFace::turns_over(const Vector3& joint,
+                                               const std::array<double, 3>& weight) const {
   if (!(height_ > 0)) return false;
   const double far = (middle_ - joint).norm(), change = change_of(weight);
   return !is_gentle(far, change) && !is_safe(far, change, weight) && turns_over_about_axes(joint, weight);
@@ -95,8 +96,7 @@ bool TurnedFace::is_safe(double far, double change, const std::array<double, 3>&
   return is_little(kMove * edge_bow.norm() / length_, kMove * height_bow.norm() / height_);
 }
 
-MSPSKEL_AVX_CLONES bool TurnedFace::turns_over_about_axes(const Vector3& joint,
-                                                          const std::array<double, 3>& weight) const {
+bool TurnedFace::turns_over_about_axes(const Vector3& joint, const std::array<double, 3>& weight) const {
   const double c = 1 - std::cos(kAngle), s = std::sin(kAngle);
   const Vector3 first = weight[0] * (x(0) - joint), &n = normal_;
   const Vector3 v = weight[1] * (x(1) - joint) - first, w = weight[2] * (x(2) - joint) - first;
