@@ -13,15 +13,12 @@ JointWays::JointWays(const Rig& rig, const std::vector<BoneShare>& shares)
   }
 }
 
-void JointWays::lower(Index v, Index joint, double share) {
-  if (level_[joint] < rows_[v].top) {
-    const std::size_t begin = lowered_.size();
-    lowered_.resize(begin + level_[shares_[v].joint] - level_[joint] + 1);
-    std::size_t at_level = lowered_.size();
-    for (Index j = shares_[v].joint; j != above(joint); j = above(j)) lowered_[--at_level] = at_on_way(v, j);
-    rows_[v] = {static_cast<Index>(begin) - level_[joint], level_[joint]};
-  }
-  lowered_[rows_[v].begin + level_[joint]] = share;
+void JointWays::make_room(Index v, Index joint) {
+  const std::size_t begin = lowered_.size();
+  lowered_.resize(begin + level_[shares_[v].joint] - level_[joint] + 1);
+  std::size_t at_level = lowered_.size();
+  for (Index j = shares_[v].joint; j != above(joint); j = above(j)) lowered_[--at_level] = at_on_way(v, j);
+  rows_[v] = {static_cast<Index>(begin) - level_[joint], level_[joint]};
 }
 
 }  // namespace mspskel::detail

@@ -22,11 +22,13 @@ class JointWays {
   const BoneShare& of_map(Index v) const { return shares_[v]; }
   bool is_lowered(Index v) const { return rows_[v].top != kNoRow; }
   Index above(Index joint) const { return above_[joint]; }
+  // How many joints are above it.
+  Index level(Index joint) const { return level_[joint]; }
   // On joints beside the vertex's way and below it, 0.
   double at(Index v, Index joint) const { return is_on_way(v, joint) ? at_on_way(v, joint) : 0.0; }
   // The joint is on the vertex's way.
   double at_on_way(Index v, Index joint) const {
-    const Row row = rows_[v];
+    const Row& row = rows_[v];
     if (level_[joint] >= row.top) return lowered_[row.begin + level_[joint]];
     return joint == shares_[v].joint ? shares_[v].share : 1.0;
   }
@@ -34,7 +36,10 @@ class JointWays {
     return hangs_on_[static_cast<std::size_t>(joint) * above_.size() + shares_[v].joint] != 0;
   }
   // The joint is on the vertex's way and its share becomes less.
-  void lower(Index v, Index joint, double share);
+  void lower(Index v, Index joint, double share) {
+    if (level_[joint] < rows_[v].top) make_room(v, joint);
+    lowered_[rows_[v].begin + level_[joint]] = share;
+  }
 
  private:
   static constexpr Index kNoRow = std::numeric_limits<Index>::max();
@@ -42,6 +47,8 @@ class JointWays {
   struct Row {
     Index begin = 0, top = kNoRow;  // kNoRow: as the map says
   };
+
+  void make_room(Index v, Index joint);
 
   const std::vector<BoneShare>& shares_;
   std::vector<Index> above_;    // per joint: the one that it hangs on

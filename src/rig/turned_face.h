@@ -20,8 +20,9 @@ class TurnedFace {
   bool turns_over(const Vector3& joint, const std::array<double, 3>& weight) const;
 
  private:
-  bool is_gentle(double far, const std::array<double, 3>& weight) const;
-  bool is_safe(double far, const std::array<double, 3>& weight) const;
+  // The weights differ by `change` at most.
+  bool is_gentle(double far, double change) const;
+  bool is_safe(double far, double change, const std::array<double, 3>& weight) const;
   bool turns_over_about_axes(const Vector3& joint, const std::array<double, 3>& weight) const;
 
   const Vector3& x(std::size_t k) const { return *corner_[k]; }
@@ -31,6 +32,7 @@ class TurnedFace {
   std::size_t p_ = 0;        // where the longest edge begins
   double length_ = 0;        // of that edge
   double height_ = 0;        // above it
+  double foot_ = 0;          // of the height, as a share of the edge
 };
 
 }  // namespace mspskel::detail

@@ -15,6 +15,8 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 // A border along the edges of a mesh is longer than the straight one: 4 / pi times on a square grid, on
 // average over its directions.
 constexpr double kStraightened = kPi / 4;
+// No taper is wider than the widest cross-section by more than rounding.
+constexpr double kRounded = 1 - 1e-9;
 
 using Edge = std::array<Index, 2>;
 
@@ -189,13 +191,21 @@ class PartFinder {
     return smaller > 0 && smaller >= options_.smallest * total_ &&
            smaller >= options_.slenderness * perimeter * perimeter;
   }
+  double score(double radius, double contrast, double area, double whole) const {
+    return contrast * 2 * kPi * radius / std::sqrt(std::min(area, whole - area));
+  }
+  // For a contrast of `least` or more: tapers cost most of the search, so they wait until this holds.
+  bool may_be_cleaner(const Cut& best, double radius, double least, double area, double whole) const {
+    return least <= options_.contrast && is_part(radius, area, whole) &&
+           score(radius, least, area, whole) < best.score;
+  }
   // Keeps the cut if it is clean enough and cleaner than the best. `contrast` is the cross-section's share of
   // the taper's.
   void consider(Cut& best, double radius, double contrast, double area, double whole,
                 std::vector<Edge> edges) const {
     if (contrast > options_.contrast || !is_part(radius, area, whole)) return;
-    const double score = contrast * 2 * kPi * radius / std::sqrt(std::min(area, whole - area));
-    if (score < best.score) best = {score, best.widest, std::move(edges)};
+    const double found = score(radius, contrast, area, whole);
+    if (found < best.score) best = {found, best.widest, std::move(edges)};
   }
 
   // The edge above a node, where it could be cut by its size.
@@ -268,18 +278,24 @@ class PartFinder {
   }
   void cut_stretch(Cut& best, const std::vector<Index>& chain, double widest, double whole) {
     const std::size_t edges = chain.size() - 1;
-    std::vector<double> radius(edges), contrast(edges);
+    std::vector<double> radius(edges), least(edges), contrast(edges, -1.0);
     for (std::size_t i = 0; i < edges; ++i) {
       radius[i] = 0.5 * (size_[chain[i]] + size_[chain[i + 1]]);
-      contrast[i] = radius[i] / tapered(chain[i], chain[i + 1], widest);
+      least[i] = kRounded * radius[i] / widest;
     }
+    const auto contrast_at = [&](std::size_t i) {
+      if (contrast[i] < 0) contrast[i] = radius[i] / tapered(chain[i], chain[i + 1], widest);
+      return contrast[i];
+    };
     for (std::size_t i = 0; i + 1 < edges; ++i) {
+      if (least[i] > options_.contrast) continue;
       double area = 0;
       for (std::size_t j = i + 1; j < edges; ++j) {
         area += skeleton_.nodes[chain[j]].area;
-        if (std::max(contrast[i], contrast[j]) <= options_.contrast)
-          consider(best, std::max(radius[i], radius[j]), std::max(contrast[i], contrast[j]), area, whole,
-                   {{chain[i], chain[i + 1]}, {chain[j], chain[j + 1]}});
+        const double wider = std::max(radius[i], radius[j]);
+        if (!may_be_cleaner(best, wider, std::max(least[i], least[j]), area, whole)) continue;
+        consider(best, wider, std::max(contrast_at(i), contrast_at(j)), area, whole,
+                 {{chain[i], chain[i + 1]}, {chain[j], chain[j + 1]}});
       }
     }
   }

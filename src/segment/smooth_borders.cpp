@@ -23,14 +23,7 @@ class BorderSmoother {
         part_(part_of_face),
         width_(width),
         most_(most),
-        place_(part_of_face.size(), kNone) {
-    for (Index f = 0; f < surface.face_count(); ++f) {
-      const Index h = 3 * f;
-      middle_.push_back((surface.position[surface.origin[h]] + surface.position[surface.origin[h + 1]] +
-                         surface.position[surface.origin[h + 2]]) /
-                        3);
-    }
-  }
+        place_(part_of_face.size(), kNone) {}
 
   void run() {
     for (Index h = 0; h < surface_.halfedge_count(); ++h)
@@ -60,6 +53,12 @@ class BorderSmoother {
     else if (b < a)
       borders_[{b, a}].push_back(surface_.twin[h]);
   }
+  Vector3 middle_of(Index f) const {
+    const Index h = 3 * f;
+    return (surface_.position[surface_.origin[h]] + surface_.position[surface_.origin[h + 1]] +
+            surface_.position[surface_.origin[h + 2]]) /
+           3;
+  }
   // Faces of both parts within `width` of their border, along the surface.
   std::vector<Index> band(Index a, Index b, const std::vector<Index>& border, double width) {
     using Item = std::pair<double, Index>;
@@ -75,10 +74,12 @@ class BorderSmoother {
       if (place_[f] != kNone) continue;
       place_[f] = static_cast<Index>(faces.size());
       faces.push_back(f);
+      const Vector3 middle = middle_of(f);
       for (Index h = 3 * f; h < 3 * f + 3; ++h) {
         const Index g = surface_.twin[h] / 3;
-        const double there = distance + (middle_[f] - middle_[g]).norm();
-        if (place_[g] == kNone && (part_[g] == a || part_[g] == b) && there <= width) queue.push({there, g});
+        if (place_[g] != kNone || (part_[g] != a && part_[g] != b)) continue;
+        const double there = distance + (middle - middle_of(g)).norm();
+        if (there <= width) queue.push({there, g});
       }
     }
     return faces;
@@ -124,7 +125,6 @@ class BorderSmoother {
   const double width_, most_;
   std::map<Parts, std::vector<Index>> borders_;  // half-edges that are, or were, from the first to the second
   std::vector<Index> place_;                     // per face: in the present band
-  std::vector<Vector3> middle_;
 };
 
 // Maximal sets of faces of one part that hang together across edges.

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <functional>
 #include <numeric>
 #include <queue>
 #include <tuple>
@@ -36,13 +39,16 @@ class PieceMerger {
     count_ = surface.face_count();
     for (Index f = 0; f < count_; ++f) area_.push_back(0.5 * surface.face_normal_times_twice_area(f).norm());
     total_ = std::accumulate(area_.begin(), area_.end(), 0.0);
+    for (Borders& borders : border_) borders.reserve(3);
     for (Index h = 0; h < surface.halfedge_count(); ++h) {
       const Index f = h / 3, g = surface.twin[h] / 3;
       if (f != g && part_of_face[f] == part_of_face[g]) add(border_[f], g, costs[h]);
     }
+    std::vector<Pair> pairs;
     for (Index f = 0; f < count_; ++f)
       for (const auto& [g, cost] : border_[f])
-        if (f < g) push(f, g, cost);
+        if (f < g) pairs.push_back({key_of(worth(f, g, cost)), f, g});
+    queue_ = std::priority_queue<Pair>(std::less<Pair>(), std::move(pairs));
   }
 
   void run() {
@@ -51,8 +57,9 @@ class PieceMerger {
       queue_.pop();
       if (into_[pair.a] != pair.a || into_[pair.b] != pair.b) continue;
       const auto found = place_of(border_[pair.a], pair.b);
-      if (worth(pair.a, pair.b, found->second) != pair.worth) continue;
-      const bool clean = pair.worth.first == 0 && pair.worth.second <= options_.cost;
+      const Worth found_worth = worth(pair.a, pair.b, found->second);
+      if (key_of(found_worth) != pair.key) continue;
+      const bool clean = found_worth.first == 0 && found_worth.second <= options_.cost;
       if (clean && (options_.most == 0 || count_ <= options_.most)) return;
       merge(pair.a, pair.b);
     }
@@ -72,19 +79,28 @@ class PieceMerger {
  private:
   using Worth = std::pair<int, double>;  // whether one is too small; cost of the border for its size
   struct Pair {
-    Worth worth;
-    Index a, b;  // a < b
+    std::uint64_t key;  // of its worth
+    Index a, b;         // a < b
     bool operator<(const Pair& other) const {
-      return std::tie(worth, other.a, other.b) < std::tie(other.worth, a, b);
+      if (key != other.key) return key < other.key;
+      return std::tie(other.a, other.b) < std::tie(a, b);
     }
   };
+  // Keys are as worths are to each other: bits of numbers that are not negative count up with them.
+  static std::uint64_t key_of(const Worth& worth) {
+    const double cost = std::abs(worth.second);
+    std::uint64_t bits = 0;
+    static_assert(sizeof bits == sizeof cost);
+    std::memcpy(&bits, &cost, sizeof bits);
+    return bits | static_cast<std::uint64_t>(worth.first) << 63;
+  }
 
   Worth worth(Index a, Index b, double cost) const {
     const double smaller = std::min(area_[a], area_[b]);
     return {smaller < options_.smallest * total_ ? 1 : 0, smaller > 0 ? cost / std::sqrt(smaller) : total_};
   }
   void push(Index a, Index b, double cost) {
-    queue_.push({worth(a, b, cost), std::min(a, b), std::max(a, b)});
+    queue_.push({key_of(worth(a, b, cost)), std::min(a, b), std::max(a, b)});
   }
   void merge(Index a, Index b) {
     if (border_[a].size() < border_[b].size()) std::swap(a, b);
