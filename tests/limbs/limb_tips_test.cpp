@@ -54,6 +54,23 @@ TEST_CASE("Samples have the tips that they were made with") {
   CHECK(tips_of(Solid(sample("capsule", 1000))).size() == 2);
 }
 
+TEST_CASE("A fold that encloses nothing is no limb and no ear, and a thin sheet may be one") {
+  LimbMeasures part;
+  part.depth = 0.3;
+  part.half_width = 0.03;
+  part.slenderness = 2 * kPi * 0.3 * 0.3 / (2 * kPi * 0.3 * 0.03);
+  part.depth_over_mouth = 10;
+  part.carrier_half_chord = part.carrier_half_thickness = 0.1;
+  for (const double thickness : {1.0, 0.04}) {
+    part.half_chord = part.half_thickness = thickness * part.half_width;
+    CHECK(is_limb(part, {}));
+    CHECK(is_ear(part, {}));
+  }
+  part.half_chord = part.half_thickness = 1e-6;
+  CHECK_FALSE(is_limb(part, {}));
+  CHECK_FALSE(is_ear(part, {}));
+}
+
 TEST_CASE("The sums of a part are what is beyond the level, with the triangles cut") {
   const Solid solid(jittered(to_mesh(skin_graph(tripod(), 900)), 3, 0.2));
   std::vector<double> height;

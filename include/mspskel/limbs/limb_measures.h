@@ -74,6 +74,10 @@ inline bool is_slab_corner(double depth, double depth_over_mouth, double slender
 // block, whose depth is 0.855 of its mouth's radius, and its slices are hardly smaller than those beside it.
 inline bool is_bend(const LimbMeasures& m) { return m.depth_over_mouth < 1.25 * 0.855 && m.msp_ratio < 1.4; }
 
+// A fold of the surface onto itself, or a slit, that encloses nothing. Sheets are three times as thick at
+// least.
+inline bool is_flap(const LimbMeasures& m) { return m.half_chord < 0.01 * m.half_width; }
+
 // The corner of a body: a bend, the corner of a slab (a fin leaves what is thicker), or blunt, and widening
 // in proportion to its depth or wider than what carries it. A limb is about as wide at its root as before it.
 // Where the whole body lies behind the surface, less of a taper will do.
@@ -89,7 +93,8 @@ inline bool is_corner(const LimbMeasures& m) {
 
 // A limb by its slenderness. Its surface faces itself: inward of the corner of a block is the whole block.
 inline bool is_limb(const LimbMeasures& m, const LimbOptions& o) {
-  return m.slenderness >= o.slenderness && m.half_chord <= 1.75 * m.half_width && !is_corner(m);
+  return m.slenderness >= o.slenderness && m.half_chord <= 1.75 * m.half_width && !is_corner(m) &&
+         !is_flap(m);
 }
 
 // Slenderness of fingers, in those of limbs.
@@ -106,7 +111,7 @@ inline bool is_ear(const LimbMeasures& m, const LimbOptions& o) {
   constexpr double kAsWide = 1.25;  // a bump's radius by its area is larger than that of its slices
   if (is_blunt(m.depth_over_mouth) && m.half_width > kAsWide * m.carrier_half_chord) return false;
   return m.slenderness >= 0.3 * o.slenderness && m.slenderness * m.msp_ratio >= 0.65 * o.slenderness &&
-         !is_corner(m);
+         !is_corner(m) && !is_flap(m);
 }
 
 // How slender a part that no arc comes near has to be to get one: as a digit, since the rest of the shape,

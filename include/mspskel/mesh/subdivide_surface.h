@@ -11,7 +11,7 @@ namespace mspskel {
 
 struct SubdivisionOptions {
   // A component of as many is left as it is: its small faces are where its details are. [1, 2^31)
-  Index enough = 3200;
+  Index enough = 1600;
   // Another one is given so many vertices at most. An edge of a prism wants them all along it, and the
   // coarsening that follows takes back what is too many side by side. [1, 2^31)
   Index most_added = 16'000;
