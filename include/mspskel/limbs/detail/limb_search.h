@@ -199,14 +199,12 @@ class LimbTipSearch {
     const double end = std::min(0.5 * m.depth, kEnd * m.half_width);
     tip.cap = beyond(tip.vertex,
                      std::max(own, distance_[tip.vertex] - std::min(0.5 * m.depth, kTipCap * m.half_width)));
-    double area = 0;
-    for (const Index v : tip.cap) {
-      if (distance_[tip.vertex] - distance_[v] > end) continue;
-      tip.target += surface_.vertex_area[v] * surface_.position[v];
-      area += surface_.vertex_area[v];
-    }
-    if (area > 0) tip.target /= area;
-    return area > 0;
+    PartShapeSum sum(surface_, distance_, distance_[tip.vertex] - end);
+    for (const Index v : tip.cap)
+      if (distance_[tip.vertex] - distance_[v] <= end) sum.add_vertex(v);
+    const PartShape shape = sum.shape(distance_[tip.vertex]);
+    tip.target = shape.centre;
+    return shape.area > 0;
   }
 
   // The vertices beyond a level that hang together with a top; they are marked as walked.

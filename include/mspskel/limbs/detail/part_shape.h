@@ -16,6 +16,7 @@ struct PartShape {
   double mean_depth = 0;  // below the top
   double mouth = 0;       // the length of the level's contour
   double span = 0;        // the area that the contour goes round, as the plane that sees most of it does
+  Vector3 centre = Vector3::Zero();  // the mean of its places
 };
 
 class PartShapeSum {
@@ -39,7 +40,8 @@ class PartShapeSum {
   }
 
   PartShape shape(double top) const {
-    return {area_, area_ > 0 ? top - moment_ / area_ : 0.0, mouth_, span_.norm()};
+    if (!(area_ > 0)) return {0, 0, mouth_, span_.norm(), Vector3::Zero()};
+    return {area_, top - moment_ / area_, mouth_, span_.norm(), places_ / area_};
   }
 
  private:
@@ -69,6 +71,7 @@ class PartShapeSum {
       area_ += area;
       span_ += across;  // what a closed contour goes round is the same of all surfaces in it
       moment_ += area * (cut[0].distance + cut[k - 1].distance + cut[k].distance) / 3;
+      places_ += area / 3 * (cut[0].position + cut[k - 1].position + cut[k].position);
     }
   }
 
@@ -78,7 +81,7 @@ class PartShapeSum {
   const std::vector<double>& distance_;
   double level_;
   double area_ = 0, moment_ = 0, mouth_ = 0;
-  Vector3 span_ = Vector3::Zero();
+  Vector3 span_ = Vector3::Zero(), places_ = Vector3::Zero();
 };
 
 }  // namespace detail

@@ -180,23 +180,20 @@ class LimbCompletion {
     const double radius = level.depth / level.slenderness();
     tip.measures.half_width = radius;
     const double cap = std::min(0.5 * level.depth, kTipCap * radius), end = std::min(cap, kEnd * radius);
-    double area = 0;
+    PartShapeSum sum(surface_, outside_, outside_[top] - end);
     std::vector<std::uint8_t> seen(surface_.position.size(), 0);
     tip.cap.assign(1, top);
     seen[top] = 1;
     for (std::size_t i = 0; i < tip.cap.size(); ++i) {
       const Index v = tip.cap[i];
-      if (outside_[top] - outside_[v] <= end) {
-        tip.target += surface_.vertex_area[v] * surface_.position[v];
-        area += surface_.vertex_area[v];
-      }
+      if (outside_[top] - outside_[v] <= end) sum.add_vertex(v);
       for_each_neighbour(surface_, v, [&](Index w) {
         if (seen[w] || outside_[top] - outside_[w] > cap) return;
         seen[w] = 1;
         tip.cap.push_back(w);
       });
     }
-    tip.target /= area;
+    tip.target = sum.shape(outside_[top]).centre;
     keep_target_well_inside(tip, solid_);
     return tip;
   }
