@@ -335,12 +335,13 @@ MSPSKEL_INLINE void center_arcs(ArcGraph& graph, const BoundingVolumeHierarchy& 
       if (left_out[i]) pulls[i] = detail::pull_between(points, pulls, i);
     detail::loosen_near_joints(points, solid, execution, pulls);
     for (const Index hub : held)
-      if (points.kind[hub] == detail::ArcPoints::Kind::kLeaf)
+      if (points.kind[hub] != detail::ArcPoints::Kind::kDead)
         pulls[hub] = detail::even_pull(points.x[hub], detail::kHeldWeight);
     const auto solution = detail::solve_positions(points, pulls, options.smoothness);
     std::vector<Vector3> goal(points.x);
     for (Index i = 0; i < points.count(); ++i)
       if (solution[i].allFinite()) goal[i] += options.damping * (solution[i] - points.x[i]);
+    for (const Index hub : held) goal[hub] = points.x[hub];  // however well the system was solved
     detail::move_inside(points, solid, goal, crossings, execution);
     if (points.length() > longest) return;
     points.write_back(graph);
