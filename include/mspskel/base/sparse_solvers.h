@@ -198,10 +198,6 @@ std::optional<Eigen::VectorXd> solve_coupled_by_steps(const CoupledMatrix& matri
   return guess + way;
 }
 
-}  // namespace detail
-
-namespace detail {
-
 // Exact factors L·D·Lᵀ of a coupled matrix in blocks of three by three, in an order of least fill: a tree of
 // lines fills in nothing but what a line does. Up-looking elimination (Davis 2005). Refers to the matrix.
 class BlockFactors {
