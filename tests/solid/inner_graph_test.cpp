@@ -74,3 +74,24 @@ TEST_CASE("the way from a leg to the middle of a round plate is not by the rim")
       (truth.nodes[top].position - middle).norm() + (truth.nodes[top].position - in_leg).norm();
   CHECK(length < 1.2 * shortest);
 }
+
+// Every step in a thin bar is dear, so from its root all of the block is nearer than its end.
+TEST_CASE(
+    "a search into a thin bar comes by few vertices of the block that it leaves, whichever way it goes") {
+  VoxelSolid solid;
+  for (int x = 0; x < 12; ++x)
+    for (int y = 0; y < 12; ++y)
+      for (int z = -20; z < 12; ++z) solid.cells.insert({x, y, z});
+  for (int z = 12; z < 17; ++z) solid.cells.insert({6, 6, z});
+  const SurfaceSnapshot surface = make_snapshot(build_mesh(boundary(solid)));
+  const BoundingVolumeHierarchy faces(surface);
+  const Vector3 root = surface.frame.to_normalised({6.1, 6.2, 10.3}),
+                end = surface.frame.to_normalised({6.5, 6.5, 16.5});
+  for (const bool outward : {false, true}) {
+    detail::InnerPaths paths(surface, faces);
+    paths.prepare();
+    std::vector<Vector3> way;
+    REQUIRE(paths.path(outward ? root : end, outward ? end : root, way));
+    CHECK(paths.came_by() < static_cast<std::size_t>(surface.vertex_count()) / 4);
+  }
+}

@@ -57,8 +57,7 @@ TEST_CASE("bounds by landmarks are bounds, fall by no more than edges cost, and 
     const Grid grid(kSide, seed);
     detail::Landmarks landmarks;
     CHECK(landmarks.goal(std::vector<Index>{5}).bound(7) == 0);
-    landmarks.build(kSide * kSide, kSide * kSide / 2,
-                    [&](Index v, auto visit) { grid.edges(v, visit); });
+    landmarks.build(kSide * kSide, kSide * kSide / 2, [&](Index v, auto visit) { grid.edges(v, visit); });
     mspskel::test::Random random(seed);
     for (int k = 0; k < 10; ++k) {
       const Index from = random.below(kSide * kSide), first = random.below(kSide * kSide);
@@ -96,4 +95,25 @@ TEST_CASE("a path inside is the same whether landmarks lead the search or not") 
             fresh.path(led.point(from), led.point(to), other));
     CHECK(one == other);
   }
+}
+
+TEST_CASE("a path inside is the same from both ends in turn as from one alone") {
+  mspskel::test::Random random(6);
+  VoxelSolid solid;
+  solid.add(random_lattice(3, 1.0, random));
+  const SurfaceSnapshot surface = snapshot_of(solid, 1);
+  const BoundingVolumeHierarchy faces(surface);
+  detail::InnerGraph inner(surface, faces);
+  inner.prepare();
+  int found = 0;
+  for (int k = 0; k < 60; ++k) {
+    const Index from = random.below(surface.vertex_count()), to = random.below(surface.vertex_count());
+    if (!inner.usable(from) || !inner.usable(to)) continue;
+    std::vector<Vector3> both, one;
+    const bool is_found = inner.path(inner.point(from), inner.point(to), both);
+    CHECK(inner.path(inner.point(from), inner.point(to), one, 2 * surface.vertex_count()) == is_found);
+    CHECK(both == one);
+    found += is_found;
+  }
+  CHECK(found > 20);
 }

@@ -66,7 +66,7 @@ VisibleSection visible_section(const BoundingVolumeHierarchy& solid, const Vecto
 // μ = smoothness · (distance to the surface / own step)² · (0.008 / options.step)². So an arc keeps to the
 // middle between near walls and is straight between far ones. Near a joint, within two radii of its ball,
 // sections are those of what the arc leaves, so W falls to 0 there with the distance. Leaf ends stay in their
-// section, or where they are if `held` names their hubs; joints are nearly free. Steps that would cut a
+// section, joints are nearly free, and hubs that are `held` stay where they are. Steps that would cut a
 // corner through the surface keep the corner between them. A point moves only as far as its edges stay off
 // the surface, so what is inside stays inside, and as far as no edge sweeps over a handle, so cycles keep
 // their classes. A round that would make the arcs half as long again as they began, and ten steps, is the

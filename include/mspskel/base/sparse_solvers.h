@@ -1,7 +1,9 @@
 // Symmetric positive definite sparse systems: by elimination, or in steps where the factors would fill in.
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <Eigen/IterativeLinearSolvers>
+#include <Eigen/OrderingMethods>
 #include <Eigen/Sparse>
 #include <Eigen/SparseCholesky>
 #include <cmath>
@@ -62,31 +64,6 @@ class IncompleteFactors : public Eigen::IncompleteLUT<double> {
   }
 };
 
-// Exact factors in the order that the matrix has, which solve in the same way.
-class LineFactors
-    : public Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::NaturalOrdering<int>> {
- public:
-  struct Room {};
-
-  void solve_rows(const Eigen::VectorXd& right, Eigen::VectorXd& x, Room&) const {
-    x = right;
-    const auto& lower = matrixL().nestedExpression();  // the diagonal, which is 1, is not stored
-    const int *begin = lower.outerIndexPtr(), *row = lower.innerIndexPtr();
-    const double* value = lower.valuePtr();
-    const int rows = static_cast<int>(right.size() / 3);
-    for (int i = 0; i < rows; ++i) {
-      const Eigen::Vector3d known = row_of_three(x, i);
-      for (int k = begin[i]; k < begin[i + 1]; ++k) row_of_three(x, row[k]) -= value[k] * known;
-    }
-    for (int i = 0; i < rows; ++i) row_of_three(x, i) *= 1 / m_diag[i];
-    for (int i = rows - 1; i >= 0; --i) {
-      Eigen::Vector3d left = row_of_three(x, i);
-      for (int k = begin[i]; k < begin[i + 1]; ++k) left -= value[k] * row_of_three(x, row[k]);
-      row_of_three(x, i) = left;
-    }
-  }
-};
-
 }  // namespace detail
 
 // The solution of matrix · x = right by its LDLᵀ factors; nothing if rounding leaves no factors.
@@ -134,21 +111,6 @@ inline std::optional<Eigen::MatrixX3d> solve_large(const Eigen::SparseMatrix<dou
 struct CoupledMatrix {
   Eigen::SparseMatrix<double> even;
   std::vector<Eigen::Matrix3d> diagonal;
-
-  Eigen::SparseMatrix<double> written_out() const {
-    std::vector<Eigen::Triplet<double>> entries;
-    for (int j = 0; j < even.outerSize(); ++j) {
-      for (Eigen::SparseMatrix<double>::InnerIterator it(even, j); it; ++it)
-        for (int k = 0; k < 3 && it.row() != j; ++k)
-          entries.emplace_back(3 * static_cast<int>(it.row()) + k, 3 * j + k, it.value());
-      for (int k = 0; k < 3; ++k)
-        for (int l = 0; l < 3; ++l)
-          entries.emplace_back(3 * j + k, 3 * j + l, diagonal[static_cast<std::size_t>(j)](k, l));
-    }
-    Eigen::SparseMatrix<double> result(3 * even.rows(), 3 * even.cols());
-    result.setFromTriplets(entries.begin(), entries.end());
-    return result;
-  }
 };
 
 namespace detail {
@@ -236,26 +198,122 @@ std::optional<Eigen::VectorXd> solve_coupled_by_steps(const CoupledMatrix& matri
   return guess + way;
 }
 
+// Exact factors L·D·Lᵀ of a coupled matrix in blocks of three by three, in an order of least fill: a tree of
+// lines fills in nothing but what a line does. Up-looking elimination (Davis 2005). Refers to the matrix.
+class BlockFactors {
+ public:
+  explicit BlockFactors(const CoupledMatrix& matrix)
+      : matrix_(matrix), size_(static_cast<int>(matrix.even.rows())) {
+    Eigen::AMDOrdering<int>()(matrix.even, order_);
+    place_ = order_.inverse();
+    begin_.assign(static_cast<std::size_t>(size_) + 1, 0);
+    parent_.assign(static_cast<std::size_t>(size_), -1);
+    std::vector<int> seen(parent_.size(), -1), count(parent_.size(), 0);
+    for (int k = 0; k < size_; ++k) {
+      seen[k] = k;
+      for_each_above(k, [&](int i, double) {
+        for (; seen[i] != k; i = parent_[i]) {
+          if (parent_[i] < 0) parent_[i] = k;
+          ++count[i];
+          seen[i] = k;
+        }
+      });
+    }
+    for (int k = 0; k < size_; ++k) begin_[k + 1] = begin_[k] + count[k];
+  }
+
+  // Below the diagonal.
+  int block_count() const { return begin_[size_]; }
+
+  // False where rounding leaves a block that is not positive definite.
+  bool compute() {
+    row_.resize(static_cast<std::size_t>(begin_[size_]));
+    lower_.resize(row_.size());
+    inverse_.resize(parent_.size());
+    std::vector<Eigen::Matrix3d> column(parent_.size(), Eigen::Matrix3d::Zero());
+    std::vector<int> end(begin_.begin(), begin_.end() - 1), seen(parent_.size(), -1), way,
+        pattern(parent_.size());
+    for (int k = 0; k < size_; ++k) {
+      int top = size_;
+      seen[k] = k;
+      for_each_above(k, [&](int i, double value) {
+        column[i].diagonal().array() += value;
+        way.clear();
+        for (; seen[i] != k; i = parent_[i]) {
+          way.push_back(i);
+          seen[i] = k;
+        }
+        for (; !way.empty(); way.pop_back()) pattern[--top] = way.back();
+      });
+      Eigen::Matrix3d diagonal = matrix_.diagonal[order_.indices()[k]];
+      for (; top < size_; ++top) {
+        const int i = pattern[top];
+        const Eigen::Matrix3d block = std::exchange(column[i], Eigen::Matrix3d::Zero());
+        for (int p = begin_[i]; p < end[i]; ++p) column[row_[p]].noalias() -= lower_[p] * block;
+        const Eigen::Matrix3d factor = block.transpose() * inverse_[i];
+        diagonal.noalias() -= factor * block;
+        row_[end[i]] = k;
+        lower_[end[i]++] = factor;
+      }
+      const Eigen::LLT<Eigen::Matrix3d> root(diagonal);
+      if (root.info() != Eigen::Success) return false;
+      inverse_[k] = root.solve(Eigen::Matrix3d::Identity());
+    }
+    return true;
+  }
+
+  Eigen::VectorXd solve(const Eigen::VectorXd& right) const {
+    Eigen::VectorXd x(right.size()), result(right.size());
+    for (int k = 0; k < size_; ++k) row_of_three(x, k) = row_of_three(right, order_.indices()[k]);
+    for (int k = 0; k < size_; ++k) {
+      const Eigen::Vector3d known = row_of_three(x, k);
+      for (int p = begin_[k]; p < begin_[k + 1]; ++p) row_of_three(x, row_[p]) -= lower_[p] * known;
+    }
+    for (int k = size_ - 1; k >= 0; --k) {
+      Eigen::Vector3d left = inverse_[k] * row_of_three(x, k);
+      for (int p = begin_[k]; p < begin_[k + 1]; ++p)
+        left -= lower_[p].transpose() * row_of_three(x, row_[p]);
+      row_of_three(x, k) = left;
+    }
+    for (int k = 0; k < size_; ++k) row_of_three(result, order_.indices()[k]) = row_of_three(x, k);
+    return result;
+  }
+
+ private:
+  // visit(row, value) for the entries above the diagonal in a column of the reordered matrix.
+  template <class Visit>
+  void for_each_above(int k, Visit visit) const {
+    for (Eigen::SparseMatrix<double>::InnerIterator it(matrix_.even, order_.indices()[k]); it; ++it)
+      if (const int i = place_.indices()[it.row()]; i < k) visit(i, it.value());
+  }
+
+  const CoupledMatrix& matrix_;
+  const int size_;
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order_,
+      place_;                     // the row at a place, and back
+  std::vector<int> parent_;       // of the elimination tree
+  std::vector<int> begin_, row_;  // of the columns of L, below its diagonal
+  std::vector<Eigen::Matrix3d> lower_;
+  std::vector<Eigen::Matrix3d> inverse_;  // of the blocks of D
+};
+
 }  // namespace detail
 
-// Solves coupled · x = right in steps from the guess until what is left of the right side is 1e-5 of what the
-// guess leaves, with factors of coupled.even, which should be nearly what the matrix is for each coordinate,
-// in an order in which a line fills in nothing: incomplete factors where it has many cycles. Factors of the
-// whole would take nine times the room and more of the time. Elimination where too many steps were needed;
-// nothing if rounding leaves no factors.
+// Solves coupled · x = right by elimination. For graphs with many cycles, whose factors fill in, in steps
+// from the guess until what is left of the right side is 1e-5 of what the guess leaves, with incomplete
+// factors of coupled.even, which should be nearly what the matrix is for each coordinate; by elimination as
+// well where too many steps were needed. Nothing if rounding leaves no factors.
 inline std::optional<Eigen::VectorXd> solve_coupled(const CoupledMatrix& coupled,
                                                     const Eigen::VectorXd& right,
                                                     const Eigen::VectorXd& guess, bool has_many_cycles) {
-  const auto by_steps = [&](auto&& factors) {
+  if (has_many_cycles) {
+    detail::IncompleteFactors factors;
     factors.compute(coupled.even);
-    return detail::solve_coupled_by_steps(coupled, right, guess, factors);
-  };
-  if (const auto solution =
-          has_many_cycles ? by_steps(detail::IncompleteFactors()) : by_steps(detail::LineFactors()))
-    return solution;
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(coupled.written_out());
-  if (factors.info() != Eigen::Success) return std::nullopt;
-  return Eigen::VectorXd(factors.solve(right));
+    if (auto solution = detail::solve_coupled_by_steps(coupled, right, guess, factors)) return solution;
+  }
+  detail::BlockFactors factors(coupled);
+  if (!factors.compute()) return std::nullopt;
+  return factors.solve(right);
 }
 
 }  // namespace mspskel

@@ -181,22 +181,14 @@ inline void loosen_near_joints(const ArcPoints& points, const BoundingVolumeHier
   }
 }
 
-// The place of each point in the elimination: inner points of the chains, then those beside a hub, then hubs.
-// Along a chain nothing fills in but its two ends; a joint's neighbours, which are all coupled with each
-// other, come when only they are left.
-inline std::vector<Index> elimination_order(const ArcPoints& points) {
-  const auto is_inner = [&](Index i) { return points.kind[i] == ArcPoints::Kind::kInner; };
-  const auto group = [&](Index i) {
-    if (!is_inner(i)) return 2;
-    return std::all_of(points.next[i].begin(), points.next[i].end(), is_inner) ? 0 : 1;
-  };
-  std::array<Index, 3> place{};
-  std::vector<int> group_of(points.x.size());
-  for (Index i = 0; i < points.count(); ++i) ++place[group_of[i] = group(i)];
-  place = {0, place[0], place[0] + place[1]};
-  std::vector<Index> order(points.x.size());
-  for (Index i = 0; i < points.count(); ++i) order[i] = place[group_of[i]]++;
-  return order;
+// How many more edges there are than points: so many cycles that pieces have beyond one each.
+inline Index surplus_of_edges(const ArcPoints& points) {
+  Index surplus = 0;
+  for (const auto& chain : points.chains)
+    if (!chain.empty()) surplus += static_cast<Index>(chain.size()) - 1;
+  for (const ArcPoints::Kind kind : points.kind)
+    if (kind != ArcPoints::Kind::kDead) --surplus;
+  return surplus;
 }
 
 // Minimises Σ (x − goal)ᵀ W (x − goal) + Σ μ|x − mean of neighbours|² with μ = smoothness · stiffness.
@@ -204,22 +196,21 @@ inline std::vector<Vector3> solve_positions(const ArcPoints& points, const std::
                                             double smoothness) {
   using Triplet = Eigen::Triplet<double>;
   const Index n = points.count();
-  const std::vector<Index> row = elimination_order(points);
   CoupledMatrix matrix;
   matrix.even.resize(n, n);
   matrix.diagonal.assign(points.x.size(), Eigen::Matrix3d::Zero());
   std::vector<Triplet> entries;
   Eigen::VectorXd right(3 * n), guess(3 * n);
   const auto add = [&](Index i, Index j, double value) {
-    entries.emplace_back(row[i], row[j], value);
-    if (i == j) matrix.diagonal[row[i]].diagonal().array() += value;
+    entries.emplace_back(i, j, value);
+    if (i == j) matrix.diagonal[i].diagonal().array() += value;
   };
   for (Index i = 0; i < n; ++i) {
     const Eigen::Matrix3d weight = pulls[i].weight + 1e-9 * Eigen::Matrix3d::Identity();
-    entries.emplace_back(row[i], row[i], weight.trace() / 3);
-    matrix.diagonal[row[i]] += weight;
-    right.segment<3>(3 * row[i]) = weight * pulls[i].goal;
-    guess.segment<3>(3 * row[i]) = points.x[i];
+    entries.emplace_back(i, i, weight.trace() / 3);
+    matrix.diagonal[i] += weight;
+    right.segment<3>(3 * i) = weight * pulls[i].goal;
+    guess.segment<3>(3 * i) = points.x[i];
     const auto& next = points.next[i];
     if (next.size() < 2) continue;
     const double mu =
@@ -234,12 +225,11 @@ inline std::vector<Vector3> solve_positions(const ArcPoints& points, const std::
     }
   }
   matrix.even.setFromTriplets(entries.begin(), entries.end());
-  constexpr Index kFewJoints = 128;  // among more than that, elimination fills in
-  const auto joints = std::count(points.kind.begin(), points.kind.end(), ArcPoints::Kind::kJoint);
-  const auto solved = solve_coupled(matrix, right, guess, joints > kFewJoints);
+  constexpr Index kFewCycles = 128;  // with more than that, elimination fills in
+  const auto solved = solve_coupled(matrix, right, guess, surplus_of_edges(points) > kFewCycles);
   if (!solved) return points.x;
   std::vector<Vector3> x(points.x.size());
-  for (Index i = 0; i < n; ++i) x[i] = solved->segment<3>(3 * row[i]);
+  for (Index i = 0; i < n; ++i) x[i] = solved->segment<3>(3 * i);
   return x;
 }
 
@@ -335,12 +325,13 @@ MSPSKEL_INLINE void center_arcs(ArcGraph& graph, const BoundingVolumeHierarchy& 
       if (left_out[i]) pulls[i] = detail::pull_between(points, pulls, i);
     detail::loosen_near_joints(points, solid, execution, pulls);
     for (const Index hub : held)
-      if (points.kind[hub] == detail::ArcPoints::Kind::kLeaf)
+      if (points.kind[hub] != detail::ArcPoints::Kind::kDead)
         pulls[hub] = detail::even_pull(points.x[hub], detail::kHeldWeight);
     const auto solution = detail::solve_positions(points, pulls, options.smoothness);
     std::vector<Vector3> goal(points.x);
     for (Index i = 0; i < points.count(); ++i)
       if (solution[i].allFinite()) goal[i] += options.damping * (solution[i] - points.x[i]);
+    for (const Index hub : held) goal[hub] = points.x[hub];  // however well the system was solved
     detail::move_inside(points, solid, goal, crossings, execution);
     if (points.length() > longest) return;
     points.write_back(graph);

@@ -9,6 +9,7 @@
 #include "mspskel/base/linkage.h"
 #include "mspskel/refine/aim_ends.h"
 #include "mspskel/refine/complete_limbs.h"
+#include "mspskel/refine/detail/center_part.h"
 #include "mspskel/refine/lay_axes.h"
 #include "mspskel/refine/lay_longest_paths.h"
 #include "mspskel/refine/prune_branches.h"
@@ -108,13 +109,17 @@ class ArcRefinement {
     return strays;
   }
   // A leaf that centring has drawn back from its target goes there again, before anyone calls it a spur, and
-  // stays while the arcs settle. That may draw back others.
+  // stays while the arcs near what has changed settle. That may draw back others.
   void settle_strays() {
     constexpr int kPasses = 3;
+    ArcGraph settled = graph_;
     std::vector<Index> held = aim_strays();
     bool unsettled = drop_spurs() > 0 || !held.empty();
     for (int pass = 0; pass < kPasses && unsettled; ++pass) {
-      center(options_.centering, held);
+      center_part(graph_, arcs_near_changes(settled, graph_), solid_, options_.centering, execution_,
+                  classes_.crossings, held);
+      keep_type("settling");
+      settled = graph_;
       const std::vector<Index> strays = aim_strays();
       held.insert(held.end(), strays.begin(), strays.end());
       unsettled = !strays.empty();
@@ -139,9 +144,8 @@ class ArcRefinement {
     dissolve_through_hubs(graph_);
     keep_type("merging of joints");
   }
-  // The ends of the hubs that are held stay.
-  void center(const CenteringOptions& centering, const std::vector<Index>& held = {}) {
-    center_arcs(graph_, solid_, centering, execution_, classes_.crossings, held);
+  void center(const CenteringOptions& centering) {
+    center_arcs(graph_, solid_, centering, execution_, classes_.crossings);
     keep_type("centring");
   }
   void zip() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -52,59 +53,93 @@ class InnerPaths {
     for (Index v = 0; v < node_count(); ++v)
       if (usable(v)) index_.add(v, point_[v], point_[v]);
     index_.build();
-    marks_.assign(point_.size(), {});
+    for (auto& side : marks_) side.assign(point_.size(), {});
     edge_.assign(surface_.origin.size(), EdgeState::kUnknown);
   }
 
-  // Points strictly between a and b along the cheapest path, or false, also where the search comes by more
-  // than `most` vertices. Cost: what it comes by. Where searches without such a bound have come by many
-  // vertices, those after them go toward their goal, so that they come by few that do not lie on the way.
+  // Points strictly between a and b along the cheapest path, or false. The search goes from both ends in
+  // turn: where one of them lies in a pocket that only a dear way leaves, it comes by few vertices more than
+  // that pocket has. With a bound it goes from a, and gives up where it comes by more than `most` vertices.
+  // Cost: what it comes by. Where searches without a bound have come by many vertices, those after them go
+  // toward their other ends, so that they come by few that do not lie on the way.
   bool path(const Vector3& a, const Vector3& b, std::vector<Vector3>& between, Index most = kAnyNumber) {
-    for (const Index v : marked_) marks_[v] = {};
+    for (const Index v : marked_)
+      for (auto& side : marks_) side[v] = {};
     marked_.clear();
-    std::vector<Index> goals;
-    for (const auto& [distance, v] : entries(b)) goals.push_back(v);
-    if (goals.empty()) return false;
-    for (const Index v : goals) mark(v).goal = true;
-    std::size_t came_by = goals.size();
-    const Landmarks::Goal goal = most == kAnyNumber ? landmarks_.goal(goals) : Landmarks::Goal();
-    // By the cost of the whole way at least.
+    // By the cost of the whole way at least, but for what both sides have in common.
     using Reach = std::pair<double, Entry>;
-    std::priority_queue<Reach, std::vector<Reach>, std::greater<Reach>> queue;
-    const auto reach = [&](double cost, Index v, Index before) {
+    std::array<std::priority_queue<Reach, std::vector<Reach>, std::greater<Reach>>, 2> queue;
+    std::array<std::vector<Index>, 2> ends;
+    for (const auto& [distance, v] : entries(b)) ends[1].push_back(v);
+    if (ends[1].empty()) return false;
+    const auto first = entries(a);
+    for (const auto& [distance, v] : first) ends[0].push_back(v);
+    const bool in_turn = most == kAnyNumber;
+    const Landmarks::Goal to_a = in_turn ? landmarks_.goal(ends[0]) : Landmarks::Goal(),
+                          to_b = in_turn ? landmarks_.goal(ends[1]) : Landmarks::Goal();
+    const auto reach = [&](int side, double cost, Index v, Index before) {
       // What comes after a way that is known to stay inside, or meets the surface, is never the cheapest.
       const std::pair<double, Index> way{cost, before};
-      if (way >= marks_[v].known) return;
-      const EdgeState state = before == kNone ? EdgeState::kInside : known_state(before, v);
+      if (way >= marks_[side][v].known) return;
+      const EdgeState state = before == kNone ? EdgeState::kInside
+                              : side == 0     ? known_state(before, v)
+                                              : known_state(v, before);
       if (state == EdgeState::kCrosses) return;
-      if (state == EdgeState::kInside) mark(v).known = way;
-      queue.push({cost + goal.bound(v), {cost, v, before}});
+      if (state == EdgeState::kInside) mark(side, v).known = way;
+      const double toward = 0.5 * (to_b.bound(v) - to_a.bound(v));
+      queue[side].push({side == 0 ? cost + toward : cost - toward, {cost, v, before}});
     };
-    for (const auto& [distance, v] : entries(a)) reach(step_cost(distance, clearance(v)), v, kNone);
-    bool found = false;
-    while (!queue.empty()) {
-      const auto [cost, v, before] = queue.top().second;
-      queue.pop();
+    const auto begin = [&](int side, double cost, Index v) {
+      mark(side, v).start = cost;
+      reach(side, cost, v, kNone);
+    };
+    for (const auto& [distance, v] : first) begin(0, step_cost(distance, clearance(v)), v);
+    for (const Index v : ends[1]) begin(1, 0.0, v);
+    double best = std::numeric_limits<double>::infinity();
+    std::array<Index, 2> meeting{kNone, kNone};  // the last vertex of either side on the best way
+    const auto meet = [&](int side, double cost, Index own, Index others) {
+      best = cost;
+      meeting[side] = own;
+      meeting[1 - side] = others;
+    };
+    std::size_t came_by = 0;
+    for (int side = 0; !queue[0].empty() && !queue[1].empty(); side = in_turn ? 1 - side : 0) {
+      if (queue[0].top().first + queue[1].top().first >= best) break;
+      const auto [cost, v, before] = queue[side].top().second;
+      queue[side].pop();
       // Whether an edge stays inside is asked where it would be the cheapest way, which few edges are.
-      if (marks_[v].done || (before != kNone && edge_crosses(before, v))) continue;
+      if (marks_[side][v].done || (before != kNone && crosses(side, before, v))) continue;
       if (most != kAnyNumber && most-- <= 0) return false;
-      mark(v).done = true;
+      Mark& own = mark(side, v);
+      own.done = true;
+      own.cost = cost;
+      own.before = before;
       ++came_by;
-      marks_[v].before = before;
-      if (marks_[v].goal) {
-        between.clear();
-        for (Index w = v; w != kNone; w = marks_[w].before) between.push_back(point_[w]);
-        std::reverse(between.begin(), between.end());
-        found = true;
-        break;
-      }
-      for_each_edge(v, [&, cost = cost, v = v](Index w, double more) {
-        if (!marks_[w].done) reach(cost + more, w, v);
+      const Mark& other = marks_[1 - side][v];
+      if (const double whole = cost + (other.done ? other.cost : other.start); whole < best)
+        meet(side, whole, v, v);
+      for_each_edge(v, [&, side = side, cost = cost, v = v](Index w, double more) {
+        const Mark& beyond = marks_[1 - side][w];
+        if (!beyond.done) {
+          if (!marks_[side][w].done) reach(side, cost + more, w, v);
+        } else if (const double whole = cost + more + beyond.cost; whole < best && !crosses(side, v, w)) {
+          meet(side, whole, v, w);
+        }
       });
     }
-    if (most == kAnyNumber) set_landmarks_where_worthwhile(goals.front(), came_by);
-    return found;
+    if (meeting[0] != kNone) {
+      between.clear();
+      for (Index w = meeting[0]; w != kNone; w = marks_[0][w].before) between.push_back(point_[w]);
+      std::reverse(between.begin(), between.end());
+      Index w = meeting[0] == meeting[1] ? marks_[1][meeting[1]].before : meeting[1];
+      for (; w != kNone; w = marks_[1][w].before) between.push_back(point_[w]);
+    }
+    if (in_turn) set_landmarks_where_worthwhile(ends[1].front(), came_by);
+    return meeting[0] != kNone;
   }
+
+  // Vertices that searches without a bound have come by, until there were landmarks.
+  std::size_t came_by() const { return came_by_; }
 
   // As path(), among the ways with this label. False as well where the search comes by many labels before it
   // finds one: so many ways round handles are as short.
@@ -172,15 +207,18 @@ class InnerPaths {
 
   enum class EdgeState : std::uint8_t { kUnknown, kInside, kCrosses };
 
+  // What a search from one side knows of a vertex.
   struct Mark {
     Index before = kNone;
     // The first in the queue of the ways that are known to stay inside: its cost and the vertex before.
     std::pair<double, Index> known{std::numeric_limits<double>::infinity(), kNone};
-    bool done = false, goal = false;
+    double start = std::numeric_limits<double>::infinity();  // cost where the search begins here
+    double cost = 0.0;                                       // once done
+    bool done = false;
   };
-  Mark& mark(Index v) {
+  Mark& mark(int side, Index v) {
     marked_.push_back(v);
-    return marks_[v];
+    return marks_[side][v];
   }
 
   // Cost of the way to a vertex, the vertex, and the vertex or place before it.
@@ -262,6 +300,11 @@ class InnerPaths {
     if (edge_[h] == EdgeState::kUnknown)
       edge_[h] = solid_.segment_crosses(point_[from], point_[to]) ? EdgeState::kCrosses : EdgeState::kInside;
     return edge_[h] == EdgeState::kCrosses;
+  }
+
+  // Of the step that a search from this side takes, asked in the direction of the way from side 0 to side 1.
+  bool crosses(int side, Index from, Index to) {
+    return side == 0 ? edge_crosses(from, to) : edge_crosses(to, from);
   }
 
   static double step_cost(double length, double clearance) { return length / std::max(clearance, 1e-6); }
@@ -355,7 +398,7 @@ class InnerPaths {
   Index asked_ = 0;                           // for clearances, one by one
   BoxIndex index_;                            // of the usable points
   std::vector<EdgeState> edge_;               // per half-edge
-  std::vector<Mark> marks_;                   // per point; of `marked_` alone they mean something
+  std::array<std::vector<Mark>, 2> marks_;    // per side and point; of `marked_` alone they mean something
   std::vector<Index> marked_;
   Landmarks landmarks_;      // of this graph, where searches have come by many vertices
   std::size_t came_by_ = 0;  // vertices, before there were landmarks
