@@ -107,6 +107,30 @@ PolygonSoup horn_with_spikes(double spike, int& spikes) {
 
 }  // namespace
 
+TEST_CASE("The head of a hammer has both its ends, however short it is") {
+  for (const double half_length : {1.6, 1.8, 2.4}) {
+    ImplicitSolid hammer;
+    hammer.low = Vector3(-1.2, -half_length - 0.2, -1.2);
+    hammer.high = Vector3(5, half_length + 0.2, 1.2);
+    hammer.value = [=](const Vector3& x) {
+      const Vector3 beyond = x.cwiseAbs() - Vector3(1, half_length, 1);
+      const double handle = std::max(std::hypot(x.y(), x.z()) - 0.35, std::max(-x.x(), x.x() - 4.5));
+      return std::min(beyond.maxCoeff(), handle);
+    };
+    const ExtractResult result = extract_skeleton(to_mesh(polygonise(hammer, 3000, 0.2)));
+    const auto neighbours = adjacency(result.skeleton);
+    int left = 0, right = 0;
+    for (std::size_t i = 0; i < neighbours.size(); ++i) {
+      if (neighbours[i].size() != 1) continue;
+      left += result.skeleton.nodes[i].position.y() < -0.5 * half_length;
+      right += result.skeleton.nodes[i].position.y() > 0.5 * half_length;
+    }
+    INFO("half length " << half_length);
+    CHECK(left == 1);
+    CHECK(right == 1);
+  }
+}
+
 TEST_CASE("Most spikes of one vertex on an input get their arcs, and stubs none") {
   int spikes = 0;
   const Solid solid(build_mesh(horn_with_spikes(2.5, spikes)));

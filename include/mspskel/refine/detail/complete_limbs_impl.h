@@ -99,7 +99,7 @@ class LimbCompletion {
   // through most of it.
   static double uncovered(const LimbTip& tip) {
     const LimbMeasures& m = tip.measures;
-    return tip.kind == TipKind::kBodyEnd ? 0.5 * m.depth : std::min(0.5 * m.depth, m.half_width);
+    return tip.kind == TipKind::kBodyEnd ? 0.25 * m.depth : std::min(0.5 * m.depth, m.half_width);
   }
 
   // The end of a body lies in its middle, so the way to it is straight or none.
