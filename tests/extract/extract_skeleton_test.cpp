@@ -238,8 +238,8 @@ TEST_CASE("The input is only read") {
 TEST_CASE("Progress names every stage in order, with shares from 0 to 1") {
   const std::map<Mode, std::vector<std::string>> expected{
       {Mode::kDefault,
-       {"subdivision", "slice search", "slice error", "skeletal points", "cocycles", "collapse", "arcs",
-        "digits", "radius", "surface map", "cocycles"}},
+       {"subdivision", "coarsening", "slice search", "slice error", "skeletal points", "cocycles", "collapse",
+        "arcs", "digits", "radius", "surface map", "cocycles"}},
       {Mode::kThesis,
        {"slices", "slice error", "cone refinement", "slice error", "skeletal points", "cocycles", "collapse",
         "radius"}}};
