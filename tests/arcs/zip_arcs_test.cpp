@@ -13,8 +13,10 @@
 using namespace mspskel;
 using namespace mspskel::test;
 
-TEST_CASE("Two arcs side by side in a tube become one") {
-  const Solid solid(tube(1, 12, 24, 24));
+namespace {
+
+// In a tube along z one arc down and two side by side up.
+ArcGraph side_by_side(const Solid& solid) {
   ArcGraph graph;
   graph.add_hub(solid.at({0, 0, 5}));
   graph.add_hub(solid.at({0, 0, 1}));
@@ -22,6 +24,26 @@ TEST_CASE("Two arcs side by side in a tube become one") {
   graph.add_hub(solid.at({-0.15, 0, 10.8}));
   for (Index tip = 1; tip < 4; ++tip) line(graph, 0, tip, 60);
   map_to_nearest(graph, solid.surface.position);
+  return graph;
+}
+
+}  // namespace
+
+TEST_CASE("Ends that are kept stay two, however near their arcs are") {
+  const Solid solid(tube(1, 12, 24, 24));
+  ArcGraph graph = side_by_side(solid);
+  zip_arcs(graph, solid.surface, solid.hierarchy, {}, {}, {}, {false, false, true, true});
+  CHECK(leaf_count(graph) == 3);
+  CHECK(map_is_partition(graph));
+  // One that is not kept goes into one that is.
+  ArcGraph other = side_by_side(solid);
+  zip_arcs(other, solid.surface, solid.hierarchy, {}, {}, {}, {false, false, true, false});
+  CHECK(leaf_count(other) == 2);
+}
+
+TEST_CASE("Two arcs side by side in a tube become one") {
+  const Solid solid(tube(1, 12, 24, 24));
+  ArcGraph graph = side_by_side(solid);
   CHECK(zip_arcs(graph, solid.surface, solid.hierarchy, {}) >= 1);
   CHECK(living_arcs(graph) == 1);
   CHECK(leaf_count(graph) == 2);

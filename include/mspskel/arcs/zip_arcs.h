@@ -1,6 +1,8 @@
 // Arcs that leave a joint side by side through the same limb are one arc up to where they part.
 #pragma once
 
+#include <vector>
+
 #include "mspskel/arcs/arc_graph.h"
 #include "mspskel/base/progress.h"
 #include "mspskel/collapse/crossing_labels.h"
@@ -21,7 +23,8 @@ inline void validate(const ZipOptions& o) {
 }
 
 // Zips pairs of arcs from their common joint to where they part, the longest common way first; the joint
-// moves there along one common stem. A leaf arc that never parts from its neighbour goes. Identifying two
+// moves there along one common stem. A leaf arc that never parts from its neighbour goes, unless it ends at
+// one of the hubs that are kept (a mark for each, or none), as the ends of two toes. Identifying two
 // paths with a common start keeps the homotopy type. Vertices of the arcs go to the stem where that is
 // nearer. Two arcs are zipped only as far as what lies between them goes round no handle. Returns the number
 // of zips. Cost: O(arcs² · points) distance queries a joint, then after each zip for the pairs whose arcs it
@@ -29,7 +32,7 @@ inline void validate(const ZipOptions& o) {
 // Throws UsageError, Cancelled.
 Index zip_arcs(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
                const ZipOptions& options, const CrossingLabels& crossings = {},
-               const Execution& execution = {});
+               const Execution& execution = {}, const std::vector<bool>& kept = {});
 
 }  // namespace mspskel
 

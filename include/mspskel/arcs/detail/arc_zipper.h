@@ -119,12 +119,13 @@ inline std::vector<Vector3> without_front(const Arc& arc, int end, std::size_t c
 class ArcZipper {
  public:
   ArcZipper(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
-            double closeness, const CrossingLabels& crossings)
+            double closeness, const CrossingLabels& crossings, std::vector<bool> kept = {})
       : graph_(graph),
         surface_(surface),
         solid_(solid),
         closeness_(closeness),
         crossings_(crossings),
+        kept_(std::move(kept)),
         radii_(graph, solid),
         editor_(graph),
         version_(graph.arcs.size(), 0) {}
@@ -240,6 +241,7 @@ class ArcZipper {
   }
 
   ArcEnd end_at(Index arc, Index hub) const { return {arc, graph_.arcs[arc].hub[0] == hub ? 0 : 1}; }
+  bool is_kept(Index hub) const { return hub < static_cast<Index>(kept_.size()) && kept_[hub]; }
   bool is_loop(Index arc) const { return graph_.arcs[arc].hub[0] == graph_.arcs[arc].hub[1]; }
 
   // `known`: the pairs that were compared when the joint was last searched, which are given away.
@@ -265,7 +267,7 @@ class ArcZipper {
         }
         const std::size_t size_a = graph_.arcs[a].points.size(), size_b = graph_.arcs[b].points.size();
         const Index tip = graph_.arcs[a].hub[1 - end_at(a, h).end];
-        if (way.first + 1 == size_a && editor_.at(tip).size() == 1) {
+        if (way.first + 1 == size_a && editor_.at(tip).size() == 1 && !is_kept(tip)) {
           joint.leaf = a;
           break;
         }
@@ -282,6 +284,7 @@ class ArcZipper {
   const BoundingVolumeHierarchy& solid_;
   const double closeness_;
   const CrossingLabels& crossings_;
+  const std::vector<bool> kept_;  // hubs whose leaf arcs stay
   ArcRadii radii_;
   ArcEditor editor_;
   Index compared_ = 0;

@@ -9,6 +9,7 @@
 #include "mspskel/base/linkage.h"
 #include "mspskel/refine/aim_ends.h"
 #include "mspskel/refine/complete_limbs.h"
+#include "mspskel/refine/detail/arc_leaves.h"
 #include "mspskel/refine/detail/center_part.h"
 #include "mspskel/refine/lay_axes.h"
 #include "mspskel/refine/lay_longest_paths.h"
@@ -56,7 +57,7 @@ class ArcRefinement {
     aim();
     complete();
     center(draft_);
-    zip();
+    zip(ends_of_limbs());
     extend();
     center(draft_);
     prune();
@@ -148,8 +149,8 @@ class ArcRefinement {
     center_arcs(graph_, solid_, centering, execution_, classes_.crossings);
     keep_type("centring");
   }
-  void zip() {
-    counts_.zips += zip_arcs(graph_, surface_, solid_, options_.zip, classes_.crossings, execution_);
+  void zip(const std::vector<bool>& kept = {}) {
+    counts_.zips += zip_arcs(graph_, surface_, solid_, options_.zip, classes_.crossings, execution_, kept);
     keep_type("zipping");
   }
   void sharpen() {
@@ -160,6 +161,14 @@ class ArcRefinement {
     counts_.completed =
         complete_limbs(graph_, inner_, tips_, options_.limbs, options_.centering.step, execution_);
     keep_type("completion of limbs");
+  }
+  // Marks the hubs where leaf arcs end that stand for limbs.
+  std::vector<bool> ends_of_limbs() const {
+    std::vector<bool> ends(graph_.hub_position.size(), false);
+    const ArcLeaves leaves(graph_, graph_.incidence());
+    for (const std::size_t leaf : leaves_of_tips(graph_, leaves, tips_))
+      if (leaf != kNoLeaf) ends[leaves.leaf[leaf].tip] = true;
+    return ends;
   }
   void extend() {
     extend_ends(graph_, solid_, options_.extension);
