@@ -2,8 +2,10 @@
 #include "mspskel/refine/aim_ends.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <limits>
 
+#include "mspskel/extract_skeleton.h"
 #include "mspskel/limbs/limb_tips.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/samples/skin_graph.h"
@@ -100,4 +102,31 @@ TEST_CASE("An arc is led round a bend to a tip out of sight") {
   CHECK(aim_at_tips(graph, inner, {tip}, 0.01) == std::vector<Index>{1});
   CHECK((solid.model(graph.hub_position[1]) - Vector3(1.6, 0, 1.2)).norm() < 0.3);
   CHECK(crossings(graph, solid.hierarchy) == 0);
+}
+
+TEST_CASE("The arc of a flat bar ends in the middles of its ends") {
+  for (const Vector3& sides :
+       {Vector3(5, 1, 0.3), Vector3(6, 1, 0.3), Vector3(6, 2, 0.6), Vector3(6, 1.5, 0.9)}) {
+    DefaultMesh bar = cube();
+    Vector3 low = Vector3::Constant(1e9), high = -low;
+    for (const auto v : bar.vertices()) {
+      low = low.cwiseMin(to_vector3(bar.point(v)));
+      high = high.cwiseMax(to_vector3(bar.point(v)));
+    }
+    for (const auto v : bar.vertices()) {
+      const Vector3 x =
+          (to_vector3(bar.point(v)) - (low + high) / 2).cwiseProduct(sides.cwiseQuotient(high - low));
+      bar.set_point(v, {x[0], x[1], x[2]});
+    }
+    const CurveSkeleton skeleton = extract_skeleton(bar).skeleton;
+    const auto neighbours = adjacency(skeleton);
+    for (std::size_t i = 0; i < neighbours.size(); ++i) {
+      if (neighbours[i].size() != 1) continue;
+      const Vector3& end = skeleton.nodes[i].position;
+      INFO(sides.transpose());
+      CHECK(std::abs(end.x()) > 0.4 * sides.x());
+      CHECK(std::abs(end.y()) < 0.1 * sides.y());
+      CHECK(std::abs(end.z()) < 0.1 * sides.z());
+    }
+  }
 }

@@ -96,6 +96,45 @@ inline bool lead_to_target(std::vector<Vector3>& points, const LimbTip& tip, Inn
   return points != before;
 }
 
+// The ends of arcs without a joint: each half of one is led to the target of a tip on it, the nearest of
+// those that are no nearer to the other end, if it ends farther than a quarter of `slack` half widths from
+// it.
+inline void aim_lone_arcs(ArcGraph& graph, InnerGraph& inner, const std::vector<LimbTip>& tips, double step,
+                          double slack, std::vector<Index>& aimed) {
+  constexpr double kStricter = 0.25;  // no joint holds them: in flat bars centring swings them about
+  const auto at = graph.incidence();
+  for (Index a = 0; a < graph.arc_count(); ++a) {
+    Arc& arc = graph.arcs[a];
+    if (!arc.alive || at[arc.hub[0]].size() != 1 || at[arc.hub[1]].size() != 1) continue;
+    for (const int end : {0, 1}) {
+      const Vector3 here = graph.hub_position[arc.hub[end]], there = graph.hub_position[arc.hub[1 - end]];
+      const LimbTip* nearest = nullptr;
+      for (const LimbTip& tip : tips) {
+        const double distance = (tip.target - here).norm();
+        const Index hub = graph.hub_of_vertex[tip.vertex];
+        const bool own = graph.arc_of_vertex[tip.vertex] == a ||
+                         (hub != kNone && (hub == arc.hub[0] || hub == arc.hub[1]));
+        if (tip.kind == TipKind::kWayEnd || !own || distance > (tip.target - there).norm()) continue;
+        if (nearest == nullptr || distance < (nearest->target - here).norm()) nearest = &tip;
+      }
+      if (nearest == nullptr) continue;
+      const double half_width = nearest->measures.half_width;
+      if (slack > 0 && (here - nearest->target).norm() <= kStricter * slack * half_width) continue;
+      std::vector<Vector3> whole = points_from(arc, 1 - end);
+      const auto middle = whole.begin() + static_cast<std::ptrdiff_t>(whole.size() / 2);
+      std::vector<Vector3> half(middle, whole.end());
+      if (half.size() < 2 || !lead_to_target(half, *nearest, inner, step_for_width(half_width, step)))
+        continue;
+      whole.erase(middle, whole.end());
+      whole.insert(whole.end(), half.begin(), half.end());
+      graph.hub_position[arc.hub[end]] = whole.back();
+      if (end == 0) std::reverse(whole.begin(), whole.end());
+      arc.points = std::move(whole);
+      aimed.push_back(arc.hub[end]);
+    }
+  }
+}
+
 }  // namespace detail
 
 MSPSKEL_INLINE Index aim_ends(ArcGraph& graph, const SurfaceSnapshot& surface,
@@ -138,6 +177,7 @@ MSPSKEL_INLINE std::vector<Index> aim_at_tips(ArcGraph& graph, detail::InnerGrap
     detail::set_leaf_points(graph, leaf, std::move(points));
     aimed.push_back(leaf.tip);
   }
+  if (slack > 0) detail::aim_lone_arcs(graph, inner, tips, step, slack, aimed);
   return aimed;
 }
 
