@@ -304,7 +304,7 @@ class ExtractCommand : public Command {
       return 0;
     }
     options_.resolve();
-    limit_memory(settings_.max_memory);
+    limit_memory(settings_.max_memory, thread_count(settings_.run.extract.execution));
     const Cancellation cancellation(settings_.run.time_limit);
     Terminal terminal(settings_.verbosity());
     try {

@@ -2,6 +2,7 @@
 
 #include <sys/resource.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -26,8 +27,11 @@ std::string megabytes_text(double megabytes) { return std::to_string(static_cast
 
 }  // namespace
 
-void limit_memory(double megabytes) {
+void limit_memory(double megabytes, int threads) {
   if (megabytes == 0) return;
+  std::atomic<int> started{0};
+#pragma omp parallel num_threads(threads)
+  ++started;
   if (const double used = megabytes_in_use(); used >= megabytes)
     throw UsageError("--max-memory: the program alone takes " + megabytes_text(used + 1));
   rlimit bound{};

@@ -97,6 +97,11 @@ class Ending(ProgramTest):
             self.skipTest("built with a sanitizer, which takes memory of its own")
         self.assertIn("60 MB of --max-memory", self.fail_with(CANCELLED, mesh, "a.skel", "--max-memory", "60"))
         self.assertIn("the program alone", self.fail_with(USAGE, mesh, "a.skel", "--max-memory", "0.001"))
+        # No thread is asked for that cannot be had.
+        for limit in ["1", "5", "15", "25"]:
+            result = self.run_program(mesh, "a.skel", "--max-memory", limit, "--threads", "2")
+            self.assertIn(result.returncode, (USAGE, CANCELLED))
+            self.assertRegex(result.stderr.decode(), "the program alone takes|MB of --max-memory")
 
     def test_interrupt_leaves_an_older_result_as_it_was(self):
         mesh = self.sample("torus", 20000)
