@@ -84,7 +84,7 @@ def test_what_a_run_keeps(ring, torus):
     assert np.allclose(np.linalg.norm(kept.slice_normal, axis=1), 1)
     contour = kept.slice(7)
     length = np.linalg.norm(contour - np.roll(contour, 1, axis=0), axis=1).sum()
-    assert length == pytest.approx(kept.msp[7])
+    assert length == pytest.approx(kept.msp[7], rel=0.01)  # its slices are of a surface that is coarser
     assert kept.vertex_of_point is None and len(kept.seconds) > 3
     with pytest.raises(mspskel.UsageError):
         kept.slice(-1)
