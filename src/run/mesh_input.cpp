@@ -104,11 +104,16 @@ void unite(MeshInput& input, const SurfaceSnapshot& surface, const std::vector<s
   input.built.warnings.insert(input.built.warnings.begin(), warnings.begin(), warnings.end());
 }
 
-// Shells that cross each other: walls round a room, as a house's, are wrapped, others are united.
+// Shells that cross each other: walls round a room, as a house's, are wrapped, others are united. A part that
+// the file holds twice is one: mending welds the two and drops the faces that repeat.
 void join_shells(MeshInput& input, const PolygonSoup& soup, const RepairSettings& settings,
                  const Execution& execution) {
   if (input.built.component_count < 2) return;
-  const SurfaceSnapshot surface = make_snapshot(input.built.mesh);
+  SurfaceSnapshot surface = make_snapshot(input.built.mesh);
+  if (settings.repair && !input.mended && has_repeated_shells(surface)) {
+    input = mend(soup, settings);
+    surface = make_snapshot(input.built.mesh);
+  }
   const std::vector<std::vector<Index>> groups = crossing_shells(surface, execution);
   if (groups.empty()) return;
   if (settings.wrap_mode == WrapMode::kAuto) {
@@ -227,10 +232,6 @@ MeshInput prepare_mesh(const PolygonSoup& soup, const RepairSettings& settings, 
     else
       refuse_sheets(input.repair.counts);
   }
-  // A part that the file holds twice is one: mending welds the two and drops the faces that repeat.
-  if (settings.unite && settings.repair && !input.mended && !input.wrapped &&
-      input.built.component_count > 1 && has_repeated_shells(make_snapshot(input.built.mesh)))
-    input = mend(soup, settings);
   if (settings.unite && !input.wrapped) join_shells(input, soup, settings, execution);
   input.built.warnings.insert(input.built.warnings.begin(), soup.warnings.begin(), soup.warnings.end());
   write_surface(input, settings);

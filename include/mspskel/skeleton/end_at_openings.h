@@ -19,11 +19,11 @@ struct OpeningEnds {
 
 // Leads to each opening the nearest leaf within two of its radii, straight from a radius before it, or from
 // the last node before that which sees the centre within 60 degrees of where its arc goes; an opening without
-// such a leaf gets an arc from the nearest of the nodes that see it. The end lies a fiftieth of the radius before the centre, so that it
-// is inside the surface that the cap closes. Nodes are at most `step` apart, a share of the model's extent,
-// and radii are distances to the wall, the caps left out. The number of pieces and cycles stays, and the map
-// of the surface stays a partition. Openings without a cap's centre are left alone. Coordinates are the
-// model's. Cost: O(nodes + vertices) an opening, and a hierarchy of the wall.
+// such a leaf gets an arc from the nearest of the nodes that see it. The end lies a fiftieth of the radius
+// before the centre, so that it is inside the surface that the cap closes. Nodes are at most `step` apart, a
+// share of the model's extent, and radii are distances to the wall, the caps left out. The number of pieces
+// and cycles stays, and the map of the surface stays a partition. Openings without a cap's centre are left
+// alone. Coordinates are the model's. Cost: O(nodes + vertices) an opening, and a hierarchy of the wall.
 OpeningEnds end_at_openings(CurveSkeleton& skeleton, const SurfaceSnapshot& surface,
                             const BoundingVolumeHierarchy& solid, const std::vector<Opening>& openings,
                             double step);

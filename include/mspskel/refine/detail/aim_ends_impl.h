@@ -119,7 +119,7 @@ inline void aim_lone_arcs(ArcGraph& graph, InnerGraph& inner, const std::vector<
       }
       if (nearest == nullptr) continue;
       const double half_width = nearest->measures.half_width;
-      if (slack > 0 && (here - nearest->target).norm() <= kStricter * slack * half_width) continue;
+      if ((here - nearest->target).norm() <= kStricter * slack * half_width) continue;
       std::vector<Vector3> whole = points_from(arc, 1 - end);
       const auto middle = whole.begin() + static_cast<std::ptrdiff_t>(whole.size() / 2);
       std::vector<Vector3> half(middle, whole.end());
