@@ -227,4 +227,14 @@ BuiltMesh build_mesh_with_report(const PolygonSoup& soup) {
 
 DefaultMesh build_mesh(const PolygonSoup& soup) { return build_mesh_with_report(soup).mesh; }
 
+PolygonSoup to_soup(const DefaultMesh& mesh) {
+  PolygonSoup soup;
+  for (const auto v : mesh.vertices()) soup.points.push_back(to_vector3(mesh.point(v)));
+  for (const auto f : mesh.faces()) {
+    for (const auto v : mesh.fv_range(f)) soup.corners.push_back(v.idx());
+    soup.begin.push_back(static_cast<Index>(soup.corners.size()));
+  }
+  return soup;
+}
+
 }  // namespace mspskel

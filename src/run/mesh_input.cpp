@@ -1,6 +1,5 @@
 #include "mesh_input.h"
 
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -43,18 +42,6 @@ MeshInput of_wrap(WrappedSoup&& wrapped) {
                                   length_text(input.wrapped->cell) +
                                   " (--wrap never mends what can be mended instead)");
   return input;
-}
-
-PolygonSoup soup_of(const DefaultMesh& mesh) {
-  PolygonSoup soup;
-  for (const auto v : mesh.vertices()) soup.points.push_back(to_vector3(mesh.point(v)));
-  for (const auto f : mesh.faces()) {
-    std::array<Index, 3> corner{};
-    std::size_t k = 0;
-    for (const auto v : mesh.fv_range(f)) corner[k++] = v.idx();
-    soup.add_triangle(corner[0], corner[1], corner[2]);
-  }
-  return soup;
 }
 
 // Where a good part of the surface is made up by what closes it, mending is a guess.
@@ -246,7 +233,7 @@ MeshInput wrap_mesh(const MeshInput& input, const PolygonSoup& soup, const Repai
                     const Execution& execution) {
   const std::size_t open_ends = input.repair.openings.size();
   MeshInput wrapped =
-      of_wrap(wrap_soup(open_ends > 0 ? soup_of(input.built.mesh) : soup, settings.wrapping, execution));
+      of_wrap(wrap_soup(open_ends > 0 ? to_soup(input.built.mesh) : soup, settings.wrapping, execution));
   std::vector<std::string>& warnings = wrapped.built.warnings;
   if (open_ends > 0) {
     for (Index& v : wrapped.vertex_of_point = input.vertex_of_point)

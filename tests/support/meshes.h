@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "mspskel/base/types.h"
+#include "mspskel/mesh/build_mesh.h"
 #include "mspskel/mesh/default_mesh.h"
 #include "mspskel/mesh/polygon_soup.h"
 #include "mspskel/samples/samples.h"
@@ -33,15 +34,7 @@ inline DefaultMesh to_mesh(const PolygonSoup& soup) {
   return mesh;
 }
 
-inline PolygonSoup to_soup(const DefaultMesh& mesh) {
-  PolygonSoup soup;
-  for (const auto v : mesh.vertices()) soup.points.push_back(to_vector3(mesh.point(v)));
-  for (const auto f : mesh.faces()) {
-    for (const auto v : mesh.fv_range(f)) soup.corners.push_back(v.idx());
-    soup.begin.push_back(static_cast<Index>(soup.corners.size()));
-  }
-  return soup;
-}
+using mspskel::to_soup;
 
 inline double signed_volume(const DefaultMesh& mesh) {
   double sum = 0;

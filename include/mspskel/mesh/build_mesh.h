@@ -38,4 +38,7 @@ BuiltMesh build_mesh_with_report(const PolygonSoup& soup);
 // The mesh alone.
 DefaultMesh build_mesh(const PolygonSoup& soup);
 
+// The other way round: the mesh's vertices and faces in their order.
+PolygonSoup to_soup(const DefaultMesh& mesh);
+
 }  // namespace mspskel
