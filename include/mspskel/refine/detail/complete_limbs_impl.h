@@ -117,7 +117,7 @@ class LimbCompletion {
 
   // The level at which a part is a limb: slender by itself and no corner, or a bump that is no wider than
   // what carries it.
-  std::optional<PartLevel> limb_level(const SlenderPart& part) const {
+  std::optional<PartLevel> limb_level(const SlenderPart& part) {
     const PartLevel& own = part.slenderest;
     if (own.depth > 0 && own.slenderness() >= uncovered_slenderness(own.depth_over_mouth(), options_) &&
         !is_slab_corner(own.depth, own.depth_over_mouth(), own.slenderness(),
@@ -131,15 +131,15 @@ class LimbCompletion {
 
   // On an input few triangles are all that there is, so they tell as much as the many of other limbs; on a
   // coarser surface they are what coarsening left. The corner of a slab has a mouth as thin as that but,
-  // other than a twig's, about as thick as what carries it. What lies flat between arcs bulges less than a
+  // other than a twig's, about as thick as what is beside it. What lies flat between arcs bulges less than a
   // disc.
-  std::optional<PartLevel> twig_level(const SlenderPart& part) const {
+  std::optional<PartLevel> twig_level(const SlenderPart& part) {
     constexpr double kThinner = 0.6;
     if (part.slenderest_of_few.depth == 0) return std::nullopt;
     const auto is_corner = [&](const PartLevel& level) {
       const double thickness = level.mouth_thickness();
-      return thickness >= kThinner * 2 * uncovered_.carrier(part.top) &&
-             is_slab_corner(level.depth, level.depth_over_mouth(), level.slenderness(), thickness, kSlack);
+      return is_slab_corner(level.depth, level.depth_over_mouth(), level.slenderness(), thickness, kSlack) &&
+             thickness >= kThinner * uncovered_.thickness_beside(part.top, level, solid_);
     };
     const PartLevel& own = part.slenderest_of_few;
     if (own.slenderness() >= options_.slenderness && own.bulge() >= 1 && !is_corner(own)) return own;

@@ -7,11 +7,13 @@
 
 #include "mspskel/arcs/arc_graph.h"
 #include "mspskel/base/progress.h"
+#include "mspskel/base/value_at_rank.h"
 #include "mspskel/limbs/detail/end_target.h"
 #include "mspskel/limbs/detail/slender_parts.h"
 #include "mspskel/limbs/limb_tips.h"
 #include "mspskel/solid/detail/ball_chain.h"
 #include "mspskel/solid/detail/ball_tree.h"
+#include "mspskel/solid/detail/inward_chord.h"
 
 namespace mspskel {
 namespace detail {
@@ -81,6 +83,25 @@ class UncoveredSurface {
     tip.target = sum.shape(distance_[top]).centre;
     keep_target_well_inside(tip, solid);
     return tip;
+  }
+
+  // How thick the solid is beside the part beyond a level: the median chord inward from the ring round it.
+  double thickness_beside(Index top, const PartLevel& level, const BoundingVolumeHierarchy& solid) {
+    const Index within = ++walk_, beside = ++walk_;
+    std::vector<Index> part{top};
+    walked_[top] = within;
+    std::vector<double> chords;
+    for (std::size_t i = 0; i < part.size(); ++i)
+      for_each_neighbour(surface_, part[i], [&](Index w) {
+        if (walked_[w] == within || walked_[w] == beside) return;
+        const bool beyond = distance_[w] >= distance_[top] - level.depth;
+        walked_[w] = beyond ? within : beside;
+        if (beyond)
+          part.push_back(w);
+        else
+          chords.push_back(2 * half_chord(surface_, solid, w));
+      });
+    return value_at_rank(std::move(chords), 0.5);
   }
 
   // Takes more balls in, and calls nearer(v) for what they cover better.
