@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 
 #include "cross_sections.h"
@@ -111,7 +112,7 @@ class PartFinder {
   // The part's cross-sections on either side of the edge a-b, by distance along the skeleton. Nodes are taken
   // in the order in which they are first reached, and again where a shorter way turns up, which on trees
   // never happens.
-  std::array<std::vector<CrossSection>, 2> sides_of(Index a, Index b, double limit) {
+  const std::array<std::vector<CrossSection>, 2>& sides_of(Index a, Index b, double limit) {
     reached_.clear();
     const auto reach = [&](Index n, double distance, char side) {
       if (distance > limit || distance >= distance_[n]) return;
@@ -126,13 +127,13 @@ class PartFinder {
       for (const Index k : next_[n])
         if (part_[k] == part_[n]) reach(k, distance_[n] + length(n, k), side_[n]);
     }
-    std::array<std::vector<CrossSection>, 2> sides;
+    for (std::vector<CrossSection>& sections : sides_) sections.clear();
     for (const Index n : reached_) {
       if (distance_[n] == kInfinite) continue;
-      sides[side_[n]].push_back({size_[n], distance_[n]});
+      sides_[side_[n]].push_back({size_[n], distance_[n]});
       distance_[n] = kInfinite;
     }
-    return sides;
+    return sides_;
   }
   // The widest straight taper over the edge a-b, from the largest cross-section near it on one side to any on
   // the other side: its radius at the edge. Kept until a cut comes near.
@@ -143,7 +144,7 @@ class PartFinder {
     return known;
   }
   double search_taper(Index a, Index b, double widest) {
-    const auto sides = sides_of(a, b, options_.reach * widest);
+    const auto& sides = sides_of(a, b, options_.reach * widest);
     double best = 0;
     for (int side = 0; side < 2; ++side) {
       CrossSection y;
@@ -202,10 +203,10 @@ class PartFinder {
   // Keeps the cut if it is clean enough and cleaner than the best. `contrast` is the cross-section's share of
   // the taper's.
   void consider(Cut& best, double radius, double contrast, double area, double whole,
-                std::vector<Edge> edges) const {
+                std::initializer_list<Edge> edges) const {
     if (contrast > options_.contrast || !is_part(radius, area, whole)) return;
     const double found = score(radius, contrast, area, whole);
-    if (found < best.score) best = {found, best.widest, std::move(edges)};
+    if (found < best.score) best = {found, best.widest, edges};
   }
 
   // The edge above a node, where it could be cut by its size.
@@ -239,7 +240,7 @@ class PartFinder {
       if (bridge.least_score >= best.score) break;
       const Index n = bridge.node, m = tree.parent[n];
       consider(best, bridge.radius, bridge.radius / tapered(m, n, widest), tree.area[n], tree.area[root],
-               {{m, n}});
+               {Edge{m, n}});
     }
     for (const std::vector<Index>& chain : chains_on_cycles(tree))
       cut_stretch(best, chain, widest, tree.area[root]);
@@ -295,7 +296,7 @@ class PartFinder {
         const double wider = std::max(radius[i], radius[j]);
         if (!may_be_cleaner(best, wider, std::max(least[i], least[j]), area, whole)) continue;
         consider(best, wider, std::max(contrast_at(i), contrast_at(j)), area, whole,
-                 {{chain[i], chain[i + 1]}, {chain[j], chain[j + 1]}});
+                 {Edge{chain[i], chain[i + 1]}, Edge{chain[j], chain[j + 1]}});
       }
     }
   }
@@ -311,6 +312,7 @@ class PartFinder {
   std::vector<double> distance_;  // of sides_of, and infinite between its calls
   std::vector<char> side_;
   std::vector<Index> reached_;
+  std::array<std::vector<CrossSection>, 2> sides_;
   std::vector<Index> root_;  // per part: one of its nodes
   std::vector<Cut> cut_;     // per part: its cleanest
   double total_ = 0;
