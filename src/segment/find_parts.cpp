@@ -19,6 +19,9 @@ constexpr double kStraightened = kPi / 4;
 // No taper is wider than the widest cross-section by more than rounding.
 constexpr double kRounded = 1 - 1e-9;
 
+// Where both are about as large, noise decides which is the larger one; this passes from one to the other.
+double soft_maximum(double a, double b) { return std::pow(std::pow(a, 8) + std::pow(b, 8), 0.125); }
+
 using Edge = std::array<Index, 2>;
 
 // One edge, or two that cut a stretch out of a cycle. `edges[0][1]` is in what is cut off.
@@ -192,42 +195,41 @@ class PartFinder {
     return smaller > 0 && smaller >= options_.smallest * total_ &&
            smaller >= options_.slenderness * perimeter * perimeter;
   }
-  double score(double radius, double contrast, double area, double whole) const {
-    return contrast * 2 * kPi * radius / std::sqrt(std::min(area, whole - area));
+  double score(double radius, double area, double whole) const {
+    return 2 * kPi * radius / std::sqrt(std::min(area, whole - area));
   }
   // For a contrast of `least` or more: tapers cost most of the search, so they wait until this holds.
   bool may_be_cleaner(const Cut& best, double radius, double least, double area, double whole) const {
     return least <= options_.contrast && is_part(radius, area, whole) &&
-           score(radius, least, area, whole) < best.score;
+           score(radius, area, whole) < best.score;
   }
   // Keeps the cut if it is clean enough and cleaner than the best. `contrast` is the cross-section's share of
   // the taper's.
   void consider(Cut& best, double radius, double contrast, double area, double whole,
                 std::initializer_list<Edge> edges) const {
     if (contrast > options_.contrast || !is_part(radius, area, whole)) return;
-    const double found = score(radius, contrast, area, whole);
+    const double found = score(radius, area, whole);
     if (found < best.score) best = {found, best.widest, edges};
   }
 
   // The edge above a node, where it could be cut by its size.
   struct Bridge {
     Index node;
-    double radius, least_score;  // no taper is wider than what it is between
+    double radius, score;
   };
-  // Those that could be cleanest first: the search for tapers ends where no other can be cleaner.
+  // The cleanest first: the search for tapers ends at the first that has the contrast.
   std::vector<Bridge> bridges_of(const detail::PartTree& tree, double widest) const {
     std::vector<Bridge> bridges;
     const double whole = tree.area[tree.order[0]];
     for (const Index n : tree.order) {
       if (!tree.is_bridge(n)) continue;
       const double radius =
-          std::max(0.5 * (size_[tree.parent[n]] + size_[n]), kStraightened * tree.border[n] / (2 * kPi));
+          soft_maximum(0.5 * (size_[tree.parent[n]] + size_[n]), kStraightened * tree.border[n] / (2 * kPi));
       if (radius > options_.contrast * widest || !is_part(radius, tree.area[n], whole)) continue;
-      const double smaller = std::min(tree.area[n], whole - tree.area[n]);
-      bridges.push_back({n, radius, radius / widest * 2 * kPi * radius / std::sqrt(smaller)});
+      bridges.push_back({n, radius, score(radius, tree.area[n], whole)});
     }
     std::stable_sort(bridges.begin(), bridges.end(),
-                     [](const Bridge& a, const Bridge& b) { return a.least_score < b.least_score; });
+                     [](const Bridge& a, const Bridge& b) { return a.score < b.score; });
     return bridges;
   }
   Cut cleanest_cut(Index root) {
@@ -237,7 +239,7 @@ class PartFinder {
     Cut best;
     best.widest = widest;
     for (const Bridge& bridge : bridges_of(tree, widest)) {
-      if (bridge.least_score >= best.score) break;
+      if (bridge.score >= best.score) break;
       const Index n = bridge.node, m = tree.parent[n];
       consider(best, bridge.radius, bridge.radius / tapered(m, n, widest), tree.area[n], tree.area[root],
                {Edge{m, n}});
