@@ -14,6 +14,7 @@
 #include "mspskel/limbs/detail/part_shape.h"
 #include "mspskel/mesh/coarsen_surface.h"
 #include "mspskel/mesh/subdivide_surface.h"
+#include "mspskel/samples/blocks.h"
 #include "support/solids.h"
 #include "topology/voxel_solids.h"
 
@@ -180,6 +181,20 @@ TEST_CASE("The corners of bodies that carry limbs are no limbs") {
     });
     CHECK(static_cast<std::size_t>(limbs) == body.limbs);
   }
+}
+
+TEST_CASE("The corners of a thick table top are no ears, since beside them it is as thick as they are") {
+  for (const double thickness : {0.5, 0.55, 0.6, 0.65, 0.7})
+    for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6}) {
+      std::vector<Block> blocks{{{-1.5, -1.5, 0}, {1.5, 1.5, thickness}}};
+      for (const double x : {-1.05, 1.05})
+        for (const double y : {-1.05, 1.05}) blocks.push_back(bar({x, y, 0.25}, {x, y, -2.5}, 0.15, false));
+      const std::vector<LimbTip> tips = tips_of(Solid(to_mesh(make_boxes(blocks, 1500, 0.2, seed))));
+      const auto ears = std::count_if(tips.begin(), tips.end(),
+                                      [](const LimbTip& tip) { return tip.kind == TipKind::kEar; });
+      INFO("thickness " << thickness << ", seed " << seed);
+      CHECK(ears == 0);
+    }
 }
 
 TEST_CASE("The corner of a slab is one at any depth; legs, fingers and long planks are none") {
@@ -377,7 +392,8 @@ TEST_CASE("Small ears count on a body with limbs, and no bump of a body without"
 
   LimbMeasures bump;
   bump.depth = 0.7;
-  bump.half_width = bump.half_chord = bump.half_thickness = bump.carrier_half_chord = 1;
+  bump.half_width = bump.half_chord = bump.half_thickness = 1;
+  bump.carrier_half_chord = bump.carrier_half_thickness = 1;
   bump.slenderness = 0.7;
   bump.msp_ratio = 4;
   CHECK(is_ear(bump, {}));

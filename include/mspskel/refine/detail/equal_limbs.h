@@ -14,11 +14,9 @@ namespace detail {
 
 // Whether two parts are of about one depth, slenderness and carrier.
 inline bool are_alike(const UncoveredSurface& surface, const SlenderPart& a, const SlenderPart& b) {
-  constexpr double kAlike = 1.2;
-  const auto near = [](double x, double y) { return x < kAlike * y && y < kAlike * x; };
-  return near(a.slenderest.depth, b.slenderest.depth) &&
-         near(a.slenderest.slenderness(), b.slenderest.slenderness()) &&
-         near(surface.carrier(a.top), surface.carrier(b.top));
+  return about_equal(a.slenderest.depth, b.slenderest.depth) &&
+         about_equal(a.slenderest.slenderness(), b.slenderest.slenderness()) &&
+         about_equal(surface.carrier(a.top), surface.carrier(b.top));
 }
 
 // The balls of the arcs that do not end in a leaf, and of the hubs where they and leaf arcs meet.
