@@ -144,7 +144,7 @@ class LimbCompletion {
     const PartLevel& own = part.slenderest_of_few;
     if (own.slenderness() >= options_.slenderness && own.bulge() >= 1 && !is_corner(own)) return own;
     const PartLevel& level = part.narrowest_of_few;
-    if (!is_corner(level) && is_bump(level, 2 * kPi * uncovered_.carrier(part.top), options_)) return level;
+    if (is_bump(level, 2 * kPi * uncovered_.carrier(part.top), options_) && !is_corner(level)) return level;
     return std::nullopt;
   }
 

@@ -99,7 +99,7 @@ class UncoveredSurface {
         if (beyond)
           part.push_back(w);
         else
-          chords.push_back(2 * half_chord(surface_, solid, w));
+          chords.push_back(chord(w, solid));
       });
     return value_at_rank(std::move(chords), 0.5);
   }
@@ -122,8 +122,16 @@ class UncoveredSurface {
   }
 
  private:
+  // The same are asked for in every round of completion.
+  double chord(Index v, const BoundingVolumeHierarchy& solid) {
+    if (chord_.empty()) chord_.assign(surface_.position.size(), -1.0);
+    if (chord_[v] < 0) chord_[v] = 2 * half_chord(surface_, solid, v);
+    return chord_[v];
+  }
+
   const SurfaceSnapshot& surface_;
   std::vector<double> distance_, carrier_;  // per vertex
+  std::vector<double> chord_;               // inward, per vertex; negative where it was not asked for
   std::vector<Index> walked_;               // the last walk that came by
   Index walk_ = 0;
 };
