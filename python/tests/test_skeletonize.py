@@ -116,7 +116,7 @@ def test_options_reach_the_engine():
 
 def test_options_for_a_kind_of_model():
     neurons = mspskel.Options.for_("neurons").values
-    assert (neurons["for"], neurons["detail"]) == ("neurons", 6)
+    assert (neurons["for"], neurons["detail"]) == ("neurons", 2)
     given = mspskel.Options.for_("neurons", smallest=0.002)
     assert given.values == {**neurons, "smallest": 0.002}
     assert given.values == mspskel.Options(smallest=0.002, for_="neurons").values

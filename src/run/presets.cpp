@@ -20,7 +20,7 @@ const std::vector<Preset>& presets() {
        {{"coarsen", "false"}, {"root", "open"}, {"smoothness", "3"}}},
       {"neurons",
        "nerve cells with thin, far-reaching processes",
-       {{"detail", "6"}, {"smallest", "0.001"}, {"smoothness", "3"}}},
+       {{"detail", "2"}, {"smallest", "0.001"}, {"smoothness", "3"}}},
       {"plants", "trees and shrubs with thin twigs", {{"detail", "2"}, {"smallest", "0.001"}}},
       {"cad", "machine parts with sharp edges", {{"limb-vertices", "20000"}, {"smallest", "0.03"}}},
       {"characters", "figures with eyes, teeth and clothes of their own", {{"components", "0.1"}}}};
