@@ -1,8 +1,6 @@
 // When a part of the shape is a limb that deserves an arc.
 #pragma once
 
-#include <algorithm>
-
 #include "mspskel/base/error.h"
 #include "mspskel/base/types.h"
 
@@ -88,13 +86,17 @@ inline bool is_flap(const LimbMeasures& m) { return m.half_chord < 0.01 * m.half
 // The corner of a body: a bend, the corner of a slab (a fin leaves what is thicker), or blunt, and widening
 // in proportion to its depth or wider than what carries it. A limb is about as wide at its root as before it.
 // Where the whole body lies behind the surface, less of a taper will do. The slab's thickness is told better
-// beside the corner, where fewer chords lead from its edges.
+// beside the corner, where fewer chords lead from its edges, and needs no slack.
 inline bool is_corner(const LimbMeasures& m) {
   constexpr double kSlack = 1.1, kWider = 1.35;
   if (is_bend(m)) return true;
   const bool of_slab = m.carrier_half_thickness < kWider * m.half_thickness;
-  const double thickness = 2 * std::min(m.half_thickness, m.carrier_half_thickness);
-  if (of_slab && is_slab_corner(m.depth, m.depth_over_mouth, m.slenderness, thickness, kSlack)) return true;
+  const auto of_thickness = [&](double thickness, double slack) {
+    return is_slab_corner(m.depth, m.depth_over_mouth, m.slenderness, thickness, slack);
+  };
+  if (of_slab &&
+      (of_thickness(2 * m.half_thickness, kSlack) || of_thickness(2 * m.carrier_half_thickness, 1)))
+    return true;
   const bool widens = m.mean_depth > (m.half_chord > 2.25 * m.half_width ? 0.61 : 0.655);
   return is_blunt(m.depth_over_mouth) && (widens || m.half_width > kWider * m.carrier_half_chord);
 }
