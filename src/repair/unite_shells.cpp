@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "crossing_shells.h"
+#include "cut_union.h"
 #include "disjoint_sets.h"
 #include "merge_short_edges.h"
 #include "mspskel/base/error.h"
@@ -36,43 +37,79 @@ double thickness(const SurfaceSnapshot& surface, const Shell& shell, const Bound
   return ways[ways.size() / kThin];
 }
 
-double cell_for(const ShellGroup& group, const UniteOptions& options) {
+struct Fineness {
+  double cell = 0;
+  bool resolves = true;  // the thinnest shell
+};
+
+Fineness fineness_for(const ShellGroup& group, const UniteOptions& options) {
   constexpr double kCoarsest = 0.01, kFinest = 0.001, kCellsAcross = 3, kNodesACell = 6;
   // Few faces tell of few details.
   constexpr double kNodesAFace = 20, kFewestNodes = 6e4, kMostNodes = 3e5;
   const double extent = (group.high() - group.low()).norm();
-  if (options.cell > 0) return options.cell * extent;
   double thinnest = extent, area = 0;
   for (std::size_t i = 0; i < group.size(); ++i)
     thinnest = std::min(thinnest, thickness(group.surface(), group.shell(i), group.solid(i)));
+  const double wanted = thinnest / kCellsAcross;
+  if (options.cell > 0) return {options.cell * extent, options.cell * extent <= wanted};
   for (const Index f : group.faces()) area += group.surface().face_normal_times_twice_area(f).norm() / 2;
   const double nodes =
       std::clamp(kNodesAFace * static_cast<double>(group.faces().size()), kFewestNodes, kMostNodes);
   const double affordable = std::sqrt(kNodesACell * area / nodes);
-  return std::clamp(thinnest / kCellsAcross, std::max(kFinest * extent, affordable),
-                    std::max(kCoarsest * extent, affordable));
+  const double least = std::max(kFinest * extent, affordable);
+  return {std::clamp(wanted, least, std::max(kCoarsest * extent, affordable)), wanted >= least};
 }
 
-// Shells that cross hang together, and so does their union, unless parts of it are thinner than the cells.
-// Nothing if the union has more handles than its shells have and n of them can make by touching: an assembly
-// of parts in contact, or walls too thin for the cells.
-std::optional<WholePieces> unite(const ShellGroup& group, const std::vector<Index>& members,
-                                 const std::vector<Index>& euler, double cell, const Execution& execution) {
-  Index own = 0;
-  for (const Index m : members) own += (4 - euler[m]) / 4;
-  const auto faults = [&](const WholePieces& pieces) {
-    return std::max<Index>(0, pieces.genus - own) + pieces.solids - 1;
-  };
-  std::optional<WholePieces> best;
-  for (const double margin : {0.0, 0.5 * std::sqrt(3.0) * cell}) {
-    if (best && faults(*best) == 0) break;
-    WholePieces pieces = detail::without_crumbs(detail::boundary_of_union(group, cell, margin, execution));
-    if (pieces.solids > 0 && (!best || faults(pieces) < faults(*best))) best = std::move(pieces);
+// The union of the solids of shells that cross.
+class Union {
+ public:
+  // own: handles that the shells have.
+  Union(const ShellGroup& group, Index own, const Fineness& fineness)
+      : group_(group), own_(own), fineness_(fineness) {}
+
+  // Nothing if the union has more handles than its shells have and make by crossing: an assembly of parts in
+  // contact, or walls too thin for the cells.
+  std::optional<WholePieces> run(const Execution& execution) {
+    std::optional<WholePieces> best;
+    std::size_t made = group_.size();
+    if (const std::optional<detail::CutShells> cut = detail::cut_union(group_, execution)) {
+      best = detail::without_crumbs(cut->soup);
+      if (best->solids == 0) best.reset();
+      // A tree of crossings closes no handle, each further pair may close one.
+      if (cut->crossings >= made) made = std::max(made, cut->crossings + 1 - made);
+    }
+    const auto most = own_ + static_cast<Index>(made);
+    is_cut_ = best.has_value();
+    if (!best || best->genus > most) sample(best, execution);
+    if (!best || best->genus > most) return std::nullopt;
+    best->soup = detail::without_short_edges(
+        best->soup, is_cut_ ? 10 * detail::kShellShift : detail::kShortEdge * fineness_.cell);
+    return best;
   }
-  if (best && best->genus > own + static_cast<Index>(members.size())) best.reset();
-  if (best) best->soup = detail::without_short_edges(best->soup, detail::kShortEdge * cell);
-  return best;
-}
+  bool is_cut() const { return is_cut_; }
+
+ private:
+  // Shells that cross hang together, and so does their union, unless parts of it are thinner than the cells.
+  Index faults(const WholePieces& pieces) const {
+    return std::max<Index>(0, pieces.genus - own_) + pieces.solids - 1;
+  }
+  // Where shells nearly touch, their own triangles leave handles that a margin closes.
+  void sample(std::optional<WholePieces>& best, const Execution& execution) {
+    const double cell = fineness_.cell;
+    for (const double margin : {0.0, 0.5 * std::sqrt(3.0) * cell}) {
+      if (best && faults(*best) == 0) return;
+      WholePieces pieces = detail::without_crumbs(detail::boundary_of_union(group_, cell, margin, execution));
+      if (pieces.solids == 0 || (best && faults(pieces) >= faults(*best))) continue;
+      best = std::move(pieces);
+      is_cut_ = false;
+    }
+  }
+
+  const ShellGroup& group_;
+  Index own_;
+  Fineness fineness_;
+  bool is_cut_ = false;
+};
 
 class Uniting {
  public:
@@ -93,7 +130,7 @@ class Uniting {
                                 united_.vertex_of[surface_.origin[3 * f + 2]]);
   }
 
-  void replace(const std::vector<Index>& members, const WholePieces& pieces, double cell,
+  void replace(const std::vector<Index>& members, const WholePieces& pieces, const Fineness& fineness,
                const Execution& execution) {
     const auto first = static_cast<Index>(united_.soup.points.size());
     for (const Vector3& p : pieces.soup.points) united_.soup.points.push_back(surface_.frame.to_model(p));
@@ -115,7 +152,8 @@ class Uniting {
     }
     united_.shells += static_cast<Index>(members.size());
     united_.solids += pieces.solids;
-    united_.cell = std::max(united_.cell, cell * surface_.frame.scale);
+    united_.cell = std::max(united_.cell, fineness.cell * surface_.frame.scale);
+    united_.resolved = united_.resolved && fineness.resolves;
   }
 
   void leave_apart(const std::vector<Index>& members) {
@@ -186,9 +224,12 @@ UnitedShells unite_shells(const SurfaceSnapshot& surface, const std::vector<std:
   const std::vector<Index> euler = twice_euler_characteristics(surface);
   for (const std::vector<Index>& members : groups) {
     const ShellGroup group(surface, shells, members, execution);
-    const double cell = cell_for(group, options);
-    if (const std::optional<WholePieces> pieces = unite(group, members, euler, cell, execution))
-      uniting.replace(members, *pieces, cell, execution);
+    Index own = 0;
+    for (const Index m : members) own += (4 - euler[m]) / 4;
+    const Fineness fineness = fineness_for(group, options);
+    Union one(group, own, fineness);
+    if (const std::optional<WholePieces> pieces = one.run(execution))
+      uniting.replace(members, *pieces, one.is_cut() ? Fineness{} : fineness, execution);
     else
       uniting.leave_apart(members);
   }

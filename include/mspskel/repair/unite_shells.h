@@ -26,7 +26,9 @@ struct UnitedShells {
   std::vector<bool> replaced;    // per component of the surface: it is a part of a united one
   Index shells = 0, solids = 0;  // how many were united into how many
   Index left_apart = 0;          // shells that cross others and stay apart; the soup is empty if all do
-  double cell = 0.0;             // the largest, model units
+  // Of the largest grid on which shells were sampled, model units; 0 if none was.
+  double cell = 0.0;
+  bool resolved = true;  // every grid is fine enough for the thinnest of its shells
 };
 
 // Groups of at least two components that cross each other, each in order. Contact does not count: an edge or
