@@ -11,10 +11,16 @@ namespace mspskel::detail {
 struct Shell {
   std::vector<Index> faces, vertices;
   Vector3 low = Vector3::Zero(), high = Vector3::Zero();  // its box
+  double width = 0;                                       // four times volume over area: a tube's diameter
   double extent() const { return (high - low).norm(); }
 };
 
 std::vector<Shell> shells_of(const SurfaceSnapshot& surface);
+
+// The members without those that are copies of one before them: each lies within a small part of its width of
+// the other everywhere.
+std::vector<Index> without_copies(const SurfaceSnapshot& surface, const std::vector<Shell>& shells,
+                                  const std::vector<Index>& members);
 
 // See crossing_shells in unite_shells.h.
 std::vector<std::vector<Index>> crossing_groups(const SurfaceSnapshot& surface,

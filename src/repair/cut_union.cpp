@@ -75,8 +75,7 @@ class CutUnion {
   double volume(Pair one, Pair other) const {
     if (other < one) std::swap(one, other);
     const Vector3& p = point_[one.first];
-    return (point_[one.second] - p)
-        .dot((point_[other.first] - p).cross(point_[other.second] - p));
+    return (point_[one.second] - p).dot((point_[other.first] - p).cross(point_[other.second] - p));
   }
   // The side of the face's plane that a point is on.
   double height(Index f, Index v) const {
@@ -141,8 +140,7 @@ class CutUnion {
     for (std::size_t i = 0; i < ends.size(); i += 2) {
       if (i + 1 == ends.size() || ends[i].faces != ends[i + 1].faces) return false;
       if (i + 2 < ends.size() && ends[i + 2].faces == ends[i].faces) return false;
-      segments_.push_back(
-          {{ends[i].faces.first, ends[i].faces.second}, {ends[i].point, ends[i + 1].point}});
+      segments_.push_back({{ends[i].faces.first, ends[i].faces.second}, {ends[i].point, ends[i + 1].point}});
     }
     for (std::size_t s = 0; s < segments_.size(); ++s)
       for (const Index f : segments_[s].face) on_face_[f].push_back(static_cast<Index>(s));
@@ -206,7 +204,11 @@ class CutUnion {
       if (other < f) continue;
       const FaceCutter::Point a = plane.at(point_[segments_[s].end[0]]),
                               b = plane.at(point_[segments_[s].end[1]]);
-      lines.push_back({s, other, a, b, {std::min(a[0], b[0]), std::min(a[1], b[1])},
+      lines.push_back({s,
+                       other,
+                       a,
+                       b,
+                       {std::min(a[0], b[0]), std::min(a[1], b[1])},
                        {std::max(a[0], b[0]), std::max(a[1], b[1])}});
     }
     const auto turn = [](const FaceCutter::Point& a, const FaceCutter::Point& b, const FaceCutter::Point& c) {
@@ -284,8 +286,7 @@ class CutUnion {
       if (!cutter.keep(number[from], number[segments_[s].end[1]])) return false;
     }
     for (const FaceCutter::Part& part : cutter.parts())
-      pieces_.push_back(
-          {{name[part.corner[0]], name[part.corner[1]], name[part.corner[2]]}, f, part.kept});
+      pieces_.push_back({{name[part.corner[0]], name[part.corner[1]], name[part.corner[2]]}, f, part.kept});
     return true;
   }
 
@@ -325,7 +326,8 @@ class CutUnion {
     parallel_for(
         static_cast<Index>(roots.size()), "union of shells", execution, [] { return 0; },
         [&](Index r, int&) { outside[roots[r]] = is_outside(pieces_[largest[roots[r]]]); }, 64);
-    PolygonSoup soup;
+    CutShells cut;
+    PolygonSoup& soup = cut.soup;
     std::vector<Index> vertex(point_.size(), kNone);
     const std::vector<char> turned = inward_shells();
     for (Index i = 0; i < count; ++i) {
@@ -340,11 +342,14 @@ class CutUnion {
         v = vertex[v];
       }
       soup.add_triangle(c[0], c[1], c[2]);
+      cut.shell.push_back(static_cast<std::size_t>(member_of_face(pieces_[i].face)));
     }
     if (!is_manifold(soup)) return std::nullopt;
-    return CutShells{std::move(soup), crossings()};
+    cut.crossings = crossings();
+    return cut;
   }
 
+  // Pairs of shells.
   std::size_t crossings() const {
     std::vector<Pair> pairs;
     for (const Segment& s : segments_) {
@@ -419,7 +424,7 @@ class CutUnion {
   std::vector<Vector3> point_;  // the surface's, moved, then those of the curves
   Index first_point_ = 0;
   std::vector<Passage> passages_;
-  std::vector<Segment> segments_;  // ascending by faces
+  std::vector<Segment> segments_;                          // ascending by faces
   std::unordered_map<Index, std::vector<Index>> on_face_;  // segments
   std::vector<Index> cut_faces_;
   std::vector<Piece> pieces_;

@@ -16,9 +16,7 @@ int place_of(const std::array<Index, 3>& list, Index wanted) {
 }  // namespace
 
 FaceCutter::FaceCutter(const Point& a, const Point& b, const Point& c)
-    : point_{a, b, c},
-      parts_{{{0, 1, 2}, {kNone, kNone, kNone}, {0, 0, 0}}},
-      part_at_{0, 0, 0} {}
+    : point_{a, b, c}, parts_{{{0, 1, 2}, {kNone, kNone, kNone}, {0, 0, 0}}}, part_at_{0, 0, 0} {}
 
 Index FaceCutter::add(const Point& p) {
   point_.push_back(p);
@@ -251,8 +249,8 @@ bool FaceCutter::keep(Index from, Index to) {
     flip(at, k);
     const Index c = parts_[at].corner[0], d = parts_[at].corner[2];  // the diagonal
     if ((c == from && d == to) || (c == to && d == from)) continue;
-    const bool crosses = c != from && c != to && d != from && d != to &&
-                         (turn(from, to, c) > 0) != (turn(from, to, d) > 0);
+    const bool crosses =
+        c != from && c != to && d != from && d != to && (turn(from, to, c) > 0) != (turn(from, to, d) > 0);
     (crosses ? crossed : made).emplace_back(c, d);
   }
   const auto [done, k] = find_side(from, to);

@@ -1,4 +1,5 @@
-// A triangle with points on its sides and within, and segments between them: triangles that keep the segments.
+// A triangle with points on its sides and within, and segments between them: triangles that keep the
+// segments.
 #pragma once
 
 #include <array>
@@ -52,7 +53,7 @@ class FaceCutter {
 
   std::vector<Point> point_;
   std::vector<Part> parts_;
-  std::vector<Index> part_at_;       // per point: one that has it
+  std::vector<Index> part_at_;          // per point: one that has it
   std::array<Index, 3> last_{0, 1, 2};  // per side: the point that its outline ends with, before the corner
   mutable Index found_ = 0;
 };

@@ -23,7 +23,7 @@ class ShellGroup {
   const BoundingVolumeHierarchy& solid(std::size_t i) const { return *solids_[i]; }
   const BoundingVolumeHierarchy& walls() const { return *walls_; }  // of all
   const std::vector<Index>& faces() const { return faces_; }        // of all
-  const Vector3& low() const { return low_; }                 // the box of all
+  const Vector3& low() const { return low_; }                       // the box of all
   const Vector3& high() const { return high_; }
 
   bool is_in(std::size_t i, const Vector3& p) const;  // in the solid of one

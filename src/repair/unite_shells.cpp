@@ -11,6 +11,7 @@
 #include "mspskel/base/error.h"
 #include "mspskel/mesh/build_mesh.h"
 #include "shell_grid.h"
+#include "split_long_edges.h"
 #include "whole_pieces.h"
 
 namespace mspskel {
@@ -38,26 +39,45 @@ double thickness(const SurfaceSnapshot& surface, const Shell& shell, const Bound
 }
 
 struct Fineness {
-  double cell = 0;
+  std::vector<double> thickness;  // per shell
+  double thinnest = 0, cell = 0;
   bool resolves = true;  // the thinnest shell
+  bool asked = false;    // by the options
 };
 
 Fineness fineness_for(const ShellGroup& group, const UniteOptions& options) {
-  constexpr double kCoarsest = 0.01, kFinest = 0.001, kCellsAcross = 3, kNodesACell = 6;
+  constexpr double kCoarsest = 0.01, kFinest = 0.001, kCellsAcross = 3, kNodesACell = 6, kThinnest = 1e-4;
   // Few faces tell of few details.
   constexpr double kNodesAFace = 20, kFewestNodes = 6e4, kMostNodes = 3e5;
   const double extent = (group.high() - group.low()).norm();
-  double thinnest = extent, area = 0;
+  Fineness result;
   for (std::size_t i = 0; i < group.size(); ++i)
-    thinnest = std::min(thinnest, thickness(group.surface(), group.shell(i), group.solid(i)));
-  const double wanted = thinnest / kCellsAcross;
-  if (options.cell > 0) return {options.cell * extent, options.cell * extent <= wanted};
-  for (const Index f : group.faces()) area += group.surface().face_normal_times_twice_area(f).norm() / 2;
-  const double nodes =
-      std::clamp(kNodesAFace * static_cast<double>(group.faces().size()), kFewestNodes, kMostNodes);
-  const double affordable = std::sqrt(kNodesACell * area / nodes);
-  const double least = std::max(kFinest * extent, affordable);
-  return {std::clamp(wanted, least, std::max(kCoarsest * extent, affordable)), wanted >= least};
+    result.thickness.push_back(
+        std::max(kThinnest * extent, thickness(group.surface(), group.shell(i), group.solid(i))));
+  result.thinnest = *std::min_element(result.thickness.begin(), result.thickness.end());
+  const double wanted = result.thinnest / kCellsAcross;
+  result.cell = options.cell * extent;
+  result.asked = options.cell > 0;
+  if (options.cell == 0) {
+    double area = 0;
+    for (const Index f : group.faces()) area += group.surface().face_normal_times_twice_area(f).norm() / 2;
+    const double nodes =
+        std::clamp(kNodesAFace * static_cast<double>(group.faces().size()), kFewestNodes, kMostNodes);
+    const double affordable = std::sqrt(kNodesACell * area / nodes);
+    result.cell =
+        std::clamp(wanted, std::max(kFinest * extent, affordable), std::max(kCoarsest * extent, affordable));
+  }
+  result.resolves = result.cell <= wanted;
+  return result;
+}
+
+// A tube of few long triangles needs vertices along it.
+void split_along(detail::CutShells& cut, const std::vector<double>& thickness, Index faces) {
+  constexpr double kLongest = 1.5;  // in thicknesses
+  constexpr Index kMostAFace = 4, kFewest = 20000;
+  std::vector<double> limit;
+  for (const std::size_t shell : cut.shell) limit.push_back(kLongest * thickness[shell]);
+  detail::split_long_edges(cut.soup, std::move(limit), std::max(kFewest, kMostAFace * faces));
 }
 
 // The union of the solids of shells that cross.
@@ -70,9 +90,13 @@ class Union {
   // Nothing if the union has more handles than its shells have and make by crossing: an assembly of parts in
   // contact, or walls too thin for the cells.
   std::optional<WholePieces> run(const Execution& execution) {
+    constexpr double kShortest = 0.15;  // edges of a cut surface that tell nothing, in thicknesses
     std::optional<WholePieces> best;
     std::size_t made = group_.size();
-    if (const std::optional<detail::CutShells> cut = detail::cut_union(group_, execution)) {
+    std::optional<detail::CutShells> cut;
+    if (!fineness_.asked) cut = detail::cut_union(group_, execution);
+    if (cut) {
+      split_along(*cut, fineness_.thickness, static_cast<Index>(group_.faces().size()));
       best = detail::without_crumbs(cut->soup);
       if (best->solids == 0) best.reset();
       // A tree of crossings closes no handle, each further pair may close one.
@@ -83,7 +107,8 @@ class Union {
     if (!best || best->genus > most) sample(best, execution);
     if (!best || best->genus > most) return std::nullopt;
     best->soup = detail::without_short_edges(
-        best->soup, is_cut_ ? 10 * detail::kShellShift : detail::kShortEdge * fineness_.cell);
+        best->soup, is_cut_ ? std::max(10 * detail::kShellShift, kShortest * fineness_.thinnest)
+                            : detail::kShortEdge * fineness_.cell);
     return best;
   }
   bool is_cut() const { return is_cut_; }
@@ -110,6 +135,21 @@ class Union {
   Fineness fineness_;
   bool is_cut_ = false;
 };
+
+// What of several copies stays.
+WholePieces own_faces(const SurfaceSnapshot& surface, const Shell& shell) {
+  WholePieces pieces;
+  std::vector<Index> vertex(surface.position.size(), kNone);
+  for (const Index v : shell.vertices) {
+    vertex[v] = static_cast<Index>(pieces.soup.points.size());
+    pieces.soup.points.push_back(surface.position[v]);
+  }
+  for (const Index f : shell.faces)
+    pieces.soup.add_triangle(vertex[surface.origin[3 * f]], vertex[surface.origin[3 * f + 1]],
+                             vertex[surface.origin[3 * f + 2]]);
+  pieces.solids = 1;
+  return pieces;
+}
 
 class Uniting {
  public:
@@ -223,9 +263,14 @@ UnitedShells unite_shells(const SurfaceSnapshot& surface, const std::vector<std:
     if (!grouped[c]) uniting.keep(c);
   const std::vector<Index> euler = twice_euler_characteristics(surface);
   for (const std::vector<Index>& members : groups) {
-    const ShellGroup group(surface, shells, members, execution);
     Index own = 0;
-    for (const Index m : members) own += (4 - euler[m]) / 4;
+    const std::vector<Index> distinct = detail::without_copies(surface, shells, members);
+    if (distinct.size() == 1) {
+      uniting.replace(members, own_faces(surface, shells[distinct[0]]), {}, execution);
+      continue;
+    }
+    for (const Index m : distinct) own += (4 - euler[m]) / 4;
+    const ShellGroup group(surface, shells, distinct, execution);
     const Fineness fineness = fineness_for(group, options);
     Union one(group, own, fineness);
     if (const std::optional<WholePieces> pieces = one.run(execution))

@@ -87,8 +87,8 @@ Scale told_scale(const SoupWalls& walls) {
   return chosen;
 }
 
-// Shells are walls where the least gap shuts in rooms of more than they fill, beside what they fill. The nooks
-// between shells that are hardly wider than the gap are none.
+// Shells are walls where the least gap shuts in rooms of more than they fill, beside what they fill. The
+// nooks between shells that are hardly wider than the gap are none.
 Scale scale_of_shells(const SoupWalls& walls, double filled) {
   Telling telling(walls, filled, kRoom * kLeastGap);
   Scale scale = scale_for(kLeastGap, kFinestToldCell);

@@ -91,9 +91,9 @@ void unite(MeshInput& input, const SurfaceSnapshot& surface, const std::vector<s
   }
   input.built = build_mesh_with_report(united.soup);
   united.soup = {};
-  warnings.push_back(counted(united.shells, "shell") + " that cross each other are united to " +
-                     counted(united.solids, "solid") + ", " + way_of(united) +
-                     " (--shells each keeps them apart)");
+  warnings.push_back(
+      counted(united.shells, "shell") + " that cross each other or lie in one place are united to " +
+      counted(united.solids, "solid") + ", " + way_of(united) + " (--shells each keeps them apart)");
   input.built.warnings.insert(input.built.warnings.begin(), warnings.begin(), warnings.end());
 }
 

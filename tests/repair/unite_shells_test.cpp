@@ -48,12 +48,26 @@ TEST_CASE("bars that cross are one solid with the volume of their union, and the
   CHECK(report.self_intersections == 0);
   CHECK(report.signed_volume == Approx(6 + 3.84 - 0.64).epsilon(0.02));
   for (std::size_t v = 0; v < bars.points.size(); ++v)
-    CHECK((united->soup.points[united->vertex_of[v]] - bars.points[v]).norm() < 2 * united->cell);
+    CHECK((united->soup.points[united->vertex_of[v]] - bars.points[v]).norm() < 1e-4);
   const SurfaceSnapshot surface = make_snapshot(build_mesh(united->soup));
   Index short_edges = 0;
   for (Index h = 0; h < surface.halfedge_count(); ++h)
     short_edges += surface.edge_length(h) * surface.frame.scale < 0.4 * united->cell;
   CHECK(short_edges < surface.halfedge_count() / 20);
+}
+
+TEST_CASE("bars are sampled on a grid where one is asked for") {
+  const PolygonSoup bars = together({kAlongX, kAlongY});
+  const SurfaceSnapshot surface = make_snapshot(build_mesh(bars));
+  UniteOptions options;
+  options.cell = 0.01;
+  const UnitedShells united = unite_shells(surface, crossing_shells(surface), options);
+  CHECK(united.cell > 0);
+  CHECK(united.resolved);
+  const MeshReport report = report_of(united.soup);
+  CHECK(report.components.size() == 1);
+  CHECK(report.genus == 0);
+  CHECK(report.signed_volume == Approx(6 + 3.84 - 0.64).epsilon(0.02));
 }
 
 TEST_CASE("a handle that is a shell of its own gives the pot a handle") {
@@ -96,6 +110,76 @@ TEST_CASE("a part that is there twice is told, and one that is moved is none") {
   CHECK_FALSE(repeated(together({kAlongX, kAlongY})));
   CHECK_FALSE(repeated(together({kAlongX, shifted(kAlongX, {0, 1e-3, 0})})));
   CHECK_FALSE(repeated(kAlongX));
+}
+
+TEST_CASE(
+    "a copy that lies a small part of the width aside is one with the part, whatever its side and size") {
+  const PolygonSoup part = to_soup(torus(1, 0.3, 32, 16));
+  const PolygonSoup aside = shifted(part, {1e-6, 2e-6, 1e-6});
+  PolygonSoup larger = part, turned = part;
+  for (Vector3& p : larger.points) p *= 1.0001;
+  for (Vector3& p : turned.points) p *= 0.9999;
+  for (std::size_t i = 0; i < turned.corners.size(); i += 3)
+    std::swap(turned.corners[i + 1], turned.corners[i + 2]);
+  for (const PolygonSoup& copy : {aside, larger, turned}) {
+    const auto united = unite(together({part, copy}));
+    REQUIRE(united);
+    CHECK(united->shells == 2);
+    CHECK(united->solids == 1);
+    CHECK(united->soup.polygon_count() == part.polygon_count());
+    CHECK(report_of(united->soup).genus == 1);
+  }
+  CHECK_FALSE(unite(together({kAlongX, box({-2.8, -0.45, -0.45}, {2.8, 0.45, 0.45})})));
+}
+
+TEST_CASE("a lattice of thin bars has the handles that its bars make, with faces in one plane") {
+  constexpr int kBars = 9;
+  constexpr double kHalf = 0.02;
+  std::vector<PolygonSoup> bars;
+  for (int i = 0; i < kBars; ++i) {
+    bars.push_back(box({-0.5, i - kHalf, -kHalf}, {kBars - 0.5, i + kHalf, kHalf}));
+    bars.push_back(box({i - kHalf, -0.5, -kHalf}, {i + kHalf, kBars - 0.5, kHalf}));
+  }
+  const auto united = unite(together(bars));
+  REQUIRE(united);
+  CHECK(united->solids == 1);
+  CHECK(united->cell == 0);
+  const MeshReport report = report_of(united->soup);
+  CHECK(report.components.size() == 1);
+  CHECK(report.genus == (kBars - 1) * (kBars - 1));
+  CHECK(report.signed_volume ==
+        Approx(4 * kHalf * kHalf * 2 * kBars * kBars - 8 * kHalf * kHalf * kHalf * kBars * kBars)
+            .epsilon(1e-3));
+}
+
+TEST_CASE("a tree of twigs far thinner than its extent is one piece without a loop") {
+  // A trunk of closed tubes end to end, askew, with twigs; each a hundredth as wide as long.
+  const auto tube = [](const Vector3& from, const Vector3& to) {
+    const Vector3 along = (to - from).normalized(), u = along.unitOrthogonal(), w = along.cross(u);
+    return to_soup(stacked_rings(
+        8, 4,
+        [&](Index ring, Index segment) {
+          const double angle = 2 * kPi * segment / 8.0;
+          return Vector3(from + ring / 3.0 * (to - from) +
+                         0.01 * (std::cos(angle) * u + std::sin(angle) * w));
+        },
+        from, to));
+  };
+  std::vector<PolygonSoup> tubes;
+  Vector3 at = Vector3::Zero();
+  for (int i = 0; i < 12; ++i) {
+    const Vector3 next = at + Vector3(1, 0.3 * std::sin(2.0 * i), 0.2 * std::cos(3.0 * i));
+    tubes.push_back(tube(at, next));
+    tubes.push_back(tube(next, next + Vector3(0.2, i % 2 == 0 ? 1 : -1, 0.1)));
+    at = next;
+  }
+  const auto united = unite(together(tubes));
+  REQUIRE(united);
+  CHECK(united->solids == 1);
+  CHECK(united->cell == 0);
+  const MeshReport report = report_of(united->soup);
+  CHECK(report.components.size() == 1);
+  CHECK(report.genus == 0);
 }
 
 TEST_CASE("walls thinner than the grid's cells do not become sieves") {
