@@ -11,8 +11,8 @@ namespace mspskel {
 
 struct UniteOptions {
   // Side of the cells of a grid on which shells are sampled, as a share of the united shells' extent;
-  // [0.001, 0.1]. 0: they are cut where that can be; else a third of the thinnest shell's thickness, at most a
-  // hundredth, and not so fine that more than about 20 nodes a face of the shells lie near the surface, or
+  // [0.001, 0.1]. 0: they are cut where that can be; else a third of the thinnest shell's thickness, at most
+  // a hundredth, and not so fine that more than about 20 nodes a face of the shells lie near the surface, or
   // 60,000 where they have few faces, or 300,000 where they have many.
   double cell = 0.0;
 };
@@ -32,8 +32,8 @@ struct UnitedShells {
   bool resolved = true;  // every grid is fine enough for the thinnest of its shells
 };
 
-// Groups of at least two components that cross each other or are copies, each in order. Contact does not count:
-// an edge or a vertex of one has to lie in the other by a thousandth of the smaller one's extent, or a
+// Groups of at least two components that cross each other or are copies, each in order. Contact does not
+// count: an edge or a vertex of one has to lie in the other by a thousandth of the smaller one's extent, or a
 // hundredth of its width (four times volume over area) where that is less. Copies lie within 0.005 of their
 // width of each other everywhere. Cost: a box query a face. Throws Cancelled.
 std::vector<std::vector<Index>> crossing_shells(const SurfaceSnapshot& surface,
@@ -43,12 +43,15 @@ std::vector<std::vector<Index>> crossing_shells(const SurfaceSnapshot& surface,
 // touch everywhere and cross nowhere. O(vertices log vertices).
 bool has_repeated_shells(const SurfaceSnapshot& surface);
 
-// Each group of crossing_shells becomes the boundary of the union of their solids; of copies one stays as it is.
-//   The shells' triangles are cut along the curves where they cross, and those within another shell's solid are
+// Each group of crossing_shells becomes the boundary of the union of their solids; of copies one stays as it
+// is.
+//   The shells' triangles are cut along the curves where they cross, and those within another shell's solid
+//   are
 // left out: as fine as the shells, with the handles of their union. Each shell is moved by up to 2e-7 of the
 // extent before, so that faces in one plane are none. Edges longer than one and a half of their shell's
 // thickness are halved, those shorter than 0.15 of the thinnest one's are merged.
-//   Where that fails, as where a shell crosses itself beside another, or where the union has more handles than
+//   Where that fails, as where a shell crosses itself beside another, or where the union has more handles
+//   than
 // its shells have and n of them, or the further pairs of a graph of crossings beyond a tree, can make, it is
 // sampled at the nodes of a grid near the surface: inside where a shell's own solid has the
 // node. Each cube of the grid is six tetrahedra about one diagonal (Kuhn 1960), and what separates inside
@@ -57,8 +60,9 @@ bool has_repeated_shells(const SurfaceSnapshot& surface);
 // it has more than its shells have, all are thickened by half a cell's diagonal, and the better union is
 // taken; one that still has too many is none: they stay apart, as the parts of an assembly do.
 //   Pieces of the union below 0.025 of its extent are left out.
-// Positions are those of the shells, or within a cell of them. Cost: O(pairs of faces that meet) and the square
-// of those of one face; on a grid O(area / cell²) inside queries and distances, in parallel. Throws Cancelled.
+// Positions are those of the shells, or within a cell of them. Cost: O(pairs of faces that meet) and the
+// square of those of one face; on a grid O(area / cell²) inside queries and distances, in parallel. Throws
+// Cancelled.
 UnitedShells unite_shells(const SurfaceSnapshot& surface, const std::vector<std::vector<Index>>& groups,
                           const UniteOptions& options = {}, const Execution& execution = {});
 
