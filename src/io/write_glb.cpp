@@ -37,7 +37,7 @@ class GlbFile {
         {"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", values.size() * sizeof(T)}};
     if (target != kNoTarget) view["target"] = static_cast<int>(target);
     json_["bufferViews"].push_back(std::move(view));
-    for (const T value : values) append_little_endian(value);
+    append_little_endian(values);
     while (binary_.size() % 4 != 0) binary_ += '\0';
     json_["accessors"].push_back({{"bufferView", json_["bufferViews"].size() - 1},
                                   {"componentType", static_cast<int>(component)},
@@ -74,28 +74,34 @@ class GlbFile {
     json_["buffers"] = {{{"byteLength", binary_.size()}}};
     std::string text = json_.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
     while (text.size() % 4 != 0) text += ' ';
-    std::string out = "glTF";
+    std::string out;
+    out.reserve(12 + 8 + text.size() + 8 + binary_.size());
+    out += "glTF";
     const auto number = [&out](std::size_t value) {
       for (int shift = 0; shift < 32; shift += 8) out += static_cast<char>(value >> shift & 255);
     };
     number(2);
     number(12 + 8 + text.size() + 8 + binary_.size());
     number(text.size());
-    out += "JSON" + text;
+    out.append("JSON").append(text);
     number(binary_.size());
-    out += std::string("BIN\0", 4) + binary_;
+    out.append("BIN\0", 4).append(binary_);
     return out;
   }
 
  private:
   template <class T>
-  void append_little_endian(T value) {
-    std::uint32_t bits = 0;
-    if constexpr (sizeof(T) == 4)
-      std::memcpy(&bits, &value, 4);
-    else
-      bits = value;
-    for (std::size_t i = 0; i < sizeof(T); ++i) binary_ += static_cast<char>(bits >> (8 * i) & 255);
+  void append_little_endian(const std::vector<T>& values) {
+    std::size_t at = binary_.size();
+    binary_.resize(at + values.size() * sizeof(T));
+    for (const T value : values) {
+      std::uint32_t bits = 0;
+      if constexpr (sizeof(T) == 4)
+        std::memcpy(&bits, &value, 4);
+      else
+        bits = value;
+      for (std::size_t i = 0; i < sizeof(T); ++i) binary_[at++] = static_cast<char>(bits >> (8 * i) & 255);
+    }
   }
 
   OrderedJson json_;
@@ -191,6 +197,8 @@ void add_skeleton(GlbFile& file, const CurveSkeleton& skeleton) {
 void add_influences(GlbFile& file, const Rig& rig, OrderedJson& primitive) {
   std::vector<std::uint16_t> joints;
   std::vector<float> weights;
+  joints.reserve(4 * rig.influences.size());
+  weights.reserve(4 * rig.influences.size());
   for (const auto& influences : rig.influences) {
     std::array<float, 4> weight{};
     for (std::size_t i = 1; i < 4; ++i) weight[i] = static_cast<float>(influences[i].weight);

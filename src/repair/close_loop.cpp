@@ -1,5 +1,7 @@
 #include "close_loop.h"
 
+#include <algorithm>
+#include <functional>
 #include <limits>
 #include <set>
 #include <tuple>
@@ -9,38 +11,25 @@ namespace {
 
 constexpr Index kMostForLeastArea = 128;
 
-// Clips ears of short diagonals, convex ones first, until few corners are left; returns those.
-class Shortening {
+// Clips ears off a loop, those of short chords first.
+class Ears {
  public:
-  Shortening(const std::vector<Vector3>& loop, LoopClosing& closing)
-      : loop_(loop),
-        closing_(closing),
-        normal_(loop_shape(loop).area),
-        size_(static_cast<Index>(loop.size())) {}
-
-  std::vector<Index> run() {
-    for (Index i = 0; i < size_; ++i) {
-      next_.push_back(i + 1 == size_ ? 0 : i + 1);
-      previous_.push_back(i == 0 ? size_ - 1 : i - 1);
+  // Whether an ear, given by its corner and those before and after it, comes after all others.
+  using Last = std::function<bool(const Vector3& before, const Vector3& corner, const Vector3& after)>;
+  Ears(const std::vector<Vector3>& loop, Last last, LoopClosing& closing)
+      : loop_(loop), last_(std::move(last)), closing_(closing), left_(static_cast<Index>(loop.size())) {
+    for (Index i = 0; i < left_; ++i) {
+      next_.push_back(i + 1 == left_ ? 0 : i + 1);
+      previous_.push_back(i == 0 ? left_ - 1 : i - 1);
     }
-    rank_.resize(size_);
-    for (Index i = 0; i < size_; ++i) add(i);
-    for (Index left = size_; left > kMostForLeastArea; --left) clip(std::get<2>(*queue_.begin()));
-    std::vector<Index> rest;
-    for (Index i = 0; i < size_; ++i)
-      if (next_[i] != kNone) rest.push_back(i);
-    return rest;
+    rank_.resize(left_);
+    for (Index i = 0; i < left_; ++i) add(i);
   }
 
- private:
-  using Rank = std::tuple<bool, double, Index>;
-  void add(Index i) {
-    const Vector3 &a = loop_[previous_[i]], &b = loop_[i], &c = loop_[next_[i]];
-    rank_[i] = {normal_.dot((b - a).cross(c - b)) < 0, (c - a).squaredNorm(), i};
-    queue_.insert(rank_[i]);
-  }
-  void clip(Index i) {
-    const Index a = previous_[i], c = next_[i];
+  Index left() const { return left_; }
+  bool only_last_left() const { return std::get<0>(*queue_.begin()); }
+  void clip() {
+    const Index i = std::get<2>(*queue_.begin()), a = previous_[i], c = next_[i];
     closing_.triangles.push_back({a, i, c});
     next_[a] = c;
     previous_[c] = a;
@@ -50,12 +39,27 @@ class Shortening {
       queue_.erase(rank_[k]);
       add(k);
     }
+    --left_;
+  }
+  std::vector<Index> rest() const {
+    std::vector<Index> corners;
+    for (Index i = 0; i < static_cast<Index>(next_.size()); ++i)
+      if (next_[i] != kNone) corners.push_back(i);
+    return corners;
+  }
+
+ private:
+  using Rank = std::tuple<bool, double, Index>;
+  void add(Index i) {
+    const Vector3 &a = loop_[previous_[i]], &b = loop_[i], &c = loop_[next_[i]];
+    rank_[i] = {last_(a, b, c), (c - a).squaredNorm(), i};
+    queue_.insert(rank_[i]);
   }
 
   const std::vector<Vector3>& loop_;
+  const Last last_;
   LoopClosing& closing_;
-  const Vector3 normal_;
-  const Index size_;
+  Index left_;
   std::vector<Index> next_, previous_;
   std::vector<Rank> rank_;
   std::set<Rank> queue_;
@@ -127,22 +131,48 @@ LoopShape loop_shape(const std::vector<Vector3>& loop) {
 }
 
 bool is_star_shaped(const std::vector<Vector3>& loop, const LoopShape& shape) {
+  constexpr double kMostBack = 0.05;
+  const Vector3 normal = shape.area.normalized();
+  double back = 0;
   for (std::size_t i = 0; i < loop.size(); ++i) {
     const Vector3 &a = loop[i], &b = loop[(i + 1) % loop.size()];
-    if (!(shape.area.dot((a - shape.centre).cross(b - shape.centre)) > 0)) return false;
+    back -= std::min(0.0, normal.dot((a - shape.centre).cross(b - shape.centre)) / 2);
   }
-  return true;
+  return back <= kMostBack * shape.area.norm();
 }
 
-LoopClosing fan_round_centre(Index size) {
-  LoopClosing closing;
-  for (Index i = 0; i < size; ++i) closing.triangles.push_back({i, i + 1 == size ? 0 : i + 1, size});
-  return closing;
+std::vector<Index> fill_notches(const std::vector<Vector3>& loop, const TubeWall& wall,
+                                LoopClosing& closing) {
+  constexpr double kMostAcross = 0.5;
+  const auto from_axis = [&](const Vector3& p) {
+    const Vector3 arm = p - wall.centre;
+    return Vector3(arm - arm.dot(wall.axis) * wall.axis);
+  };
+  const auto is_no_wall = [&](const Vector3& before, const Vector3& corner, const Vector3& after) {
+    const Vector3 area = (corner - before).cross(after - corner);
+    const Vector3 a = from_axis(before), c = from_axis(after);
+    return std::abs(area.dot(wall.axis)) >= kMostAcross * area.norm() ||
+           (area.dot(a + c) > 0) != wall.faces_outward || a.dot(c) <= 0;
+  };
+  Ears ears(loop, is_no_wall, closing);
+  while (ears.left() > 3 && !ears.only_last_left()) ears.clip();
+  return ears.rest();
+}
+
+void add_fan(const std::vector<Index>& corners, Index centre, LoopClosing& closing) {
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    closing.triangles.push_back({corners[i], corners[i + 1 == corners.size() ? 0 : i + 1], centre});
 }
 
 LoopClosing least_area_triangles(const std::vector<Vector3>& loop) {
   LoopClosing closing;
-  std::vector<Index> corners = Shortening(loop, closing).run();
+  const Vector3 normal = loop_shape(loop).area;
+  const auto is_concave = [&](const Vector3& before, const Vector3& corner, const Vector3& after) {
+    return normal.dot((corner - before).cross(after - corner)) < 0;
+  };
+  Ears ears(loop, is_concave, closing);
+  while (ears.left() > kMostForLeastArea) ears.clip();
+  const std::vector<Index> corners = ears.rest();
   LeastArea(loop, corners, closing).run();
   return closing;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "../mesh/edge_table.h"
 #include "boundary_loops.h"
@@ -123,19 +124,16 @@ class Mending {
       corners.push_back(faces_.target(*h));
       rim.push_back(points_[corners.back()]);
     }
-    const detail::LoopShape shape = detail::loop_shape(rim);
-    const bool opening = options_.open == OpenEnds::kEnds && rim.size() > 3 &&
-                         detail::is_star_shaped(rim, shape) &&
-                         detail::is_tube_end(points_, faces_, twin_, loop, shape, visited);
-    const detail::LoopClosing closing = opening ? detail::fan_round_centre(static_cast<Index>(rim.size()))
-                                                : detail::least_area_triangles(rim);
-    if (opening) {
-      corners.push_back(point_count());
-      points_.push_back(shape.centre);
-      mended_.openings.push_back(
-          {shape.centre, shape.area.normalized(), detail::loop_radius(shape), corners.back()});
-    }
-    attach(loop, corners, closing);
+    std::optional<detail::TubeEnd> end;
+    if (options_.open == OpenEnds::kEnds && rim.size() > 3)
+      end = detail::tube_end(points_, faces_, twin_, loop, rim, visited);
+    if (!end) return attach(loop, corners, detail::least_area_triangles(rim));
+    const detail::LoopShape& shape = end->shape;
+    corners.push_back(point_count());
+    points_.push_back(shape.centre);
+    mended_.openings.push_back(
+        {shape.centre, shape.area.normalized(), detail::loop_radius(shape), corners.back()});
+    attach(loop, corners, end->closing);
   }
 
   void attach(const std::vector<Index>& loop, const std::vector<Index>& corners,

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "mspskel/base/clones.h"
 #include "turned_face.h"
 
 namespace mspskel::detail {
@@ -22,6 +23,7 @@ class SideKeeper {
         count_(spread.count()),
         last_look_(surface.face_count(), 0),
         turned_at_(surface.face_count(), kNone) {
+    turned_.reserve(surface.face_count());
     rank_joints();
   }
 
@@ -175,6 +177,8 @@ class SideKeeper {
 
 }  // namespace
 
-void keep_sides(const SurfaceSnapshot& surface, ShareSpread& spread) { SideKeeper(surface, spread).run(); }
+MSPSKEL_AVX_CLONES void keep_sides(const SurfaceSnapshot& surface, ShareSpread& spread) {
+  SideKeeper(surface, spread).run();
+}
 
 }  // namespace mspskel::detail

@@ -36,7 +36,7 @@ class Influences {
     double below = 0;
     for (Index j = share.joint; j != kNone; j = ways_.above(j)) {
       const double weight = detail::smooth_share(ways_.at_on_way(v, j));
-      way_.push_back({j, weight - below});
+      if (weight != below) way_.push_back({j, weight - below});
       below = weight;
     }
     std::reverse(way_.begin(), way_.end());
@@ -152,8 +152,10 @@ void drop_joints(const std::vector<char>& dropped, Rig& rig) {
       merged[i].joint = joint;
       merged[i].weight += influence.weight;
     }
-    std::stable_sort(merged.begin(), merged.begin() + static_cast<std::ptrdiff_t>(count),
-                     [](const Influence& a, const Influence& b) { return a.weight > b.weight; });
+    // The strongest first, equal ones as they were; so few need no merge sort with its memory.
+    for (std::size_t i = 1; i < count; ++i)
+      for (std::size_t k = i; k > 0 && merged[k].weight > merged[k - 1].weight; --k)
+        std::swap(merged[k], merged[k - 1]);
     influences = merged;
   }
 }

@@ -20,7 +20,8 @@ ShareSpread::ShareSpread(const SurfaceSnapshot& surface, const Rig& rig, const s
       is_halved_(surface.vertex_count(), 0),
       changed_(rig.joints.size()),
       here_(surface.vertex_count()),
-      longest_square_(surface.vertex_count(), -1.0) {
+      longest_square_(surface.vertex_count(), -1.0),
+      queue_(kStretches) {
   for (const RigJoint& joint : rig.joints) at_.push_back(surface.frame.to_normalised(joint.position));
 }
 
@@ -96,8 +97,9 @@ inline void ShareSpread::note_changed(Index v, Here& here) {
 }
 
 inline void ShareSpread::spread_from(Index v, double share) {
-  queue_.push_back({share, v});
-  std::push_heap(queue_.begin(), queue_.end());
+  const std::size_t stretch = std::min(static_cast<std::size_t>(share * kStretches), kStretches - 1);
+  first_queued_ = std::min(first_queued_, stretch);
+  queue_[stretch].push_back({share, v});
 }
 
 inline void ShareSpread::along_edge(Index h, const Here& here) {
@@ -119,7 +121,7 @@ inline void ShareSpread::along_edge(Index h, const Here& here) {
   if (const double share = here.share + most; share < std::min(there.share, limit_)) lower(w, there, share);
 }
 
-// A vertex follows no joint more than the one that it hangs on. Then from what is queued, the lowest first.
+// A vertex follows no joint more than the one that it hangs on. Then from what is queued, low shares first.
 inline void ShareSpread::spread_below() {
   const Index above = ways_.above(joint_);
   for (const Index v : changed_[above]) {
@@ -132,18 +134,21 @@ inline void ShareSpread::spread_below() {
     note_changed(v, here);
     if (!is_flat_as_above(v, here)) spread_from(v, most);
   }
-  while (!queue_.empty()) {
-    std::pop_heap(queue_.begin(), queue_.end());
-    const auto [share, v] = queue_.back();
-    queue_.pop_back();
-    const Here& here = look_up(v);
-    if (share > here.share) continue;
-    Index h = surface_.vertex_halfedge[v];
-    const Index first = h;
-    do {
-      along_edge(h, here);
-      h = surface_.next_outgoing(h);
-    } while (h != first);
+  // What an item lowers is in its stretch or a later one.
+  for (; first_queued_ < kStretches; ++first_queued_) {
+    const std::vector<Item>& items = queue_[first_queued_];
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      const auto [share, v] = items[i];
+      const Here& here = look_up(v);
+      if (share > here.share) continue;
+      Index h = surface_.vertex_halfedge[v];
+      const Index first = h;
+      do {
+        along_edge(h, here);
+        h = surface_.next_outgoing(h);
+      } while (h != first);
+    }
+    queue_[first_queued_].clear();
   }
   for (const Index v : changed_[joint_])
     if (here_[v].share < ways_.at(v, joint_)) ways_.lower(v, joint_, here_[v].share);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <unordered_map>
 #include <vector>
 
@@ -46,8 +47,10 @@ class ShareSpread {
   struct Item {
     double share;
     Index vertex;
-    bool operator<(const Item& other) const { return share > other.share; }
   };
+  // Shares from 0 to 1 wait in so many stretches. Within one they come in any order, which costs less than a
+  // heap, since a vertex that is lowered again is spread from again.
+  static constexpr std::size_t kStretches = 64;
 
   bool is_even(Index f) const;
   void note_if_steep(Index h, const std::vector<char>& joints);
@@ -73,9 +76,10 @@ class ShareSpread {
   double limit_ = 1;
   Index joint_ = 0;  // of the present spread
   Index spread_ = 0;
-  std::vector<Here> here_;              // per vertex
-  std::vector<double> longest_square_;  // per vertex: of its edges; negative: not known
-  std::vector<Item> queue_;             // the lowest share first
+  std::vector<Here> here_;                 // per vertex
+  std::vector<double> longest_square_;     // per vertex: of its edges; negative: not known
+  std::vector<std::vector<Item>> queue_;   // per stretch of shares
+  std::size_t first_queued_ = kStretches;  // no stretch before it has an item
 };
 
 }  // namespace mspskel::detail

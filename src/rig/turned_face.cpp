@@ -11,21 +11,7 @@ namespace {
 
 constexpr double kAngle = kPi / 4;
 
-// Of the face's area.
-constexpr double kLeastLeft = 0.1;
-
-// What is r from the axis moves by this times r.
-const double kMove = 2 * std::sin(kAngle / 2);
-
-// By its mean weight the face is turned and shrunk, to at least cos(22.5 degrees)^2 of its area. What else
-// happens to its longest edge and to the height above it must be less than that.
-const double kSafe = std::pow(std::cos(kAngle / 2), 2) - kLeastLeft;
-
 double mean(const std::array<double, 3>& weight) { return (weight[0] + weight[1] + weight[2]) / 3; }
-
-double change_of(const std::array<double, 3>& weight) {
-  return std::max({weight[0], weight[1], weight[2]}) - std::min({weight[0], weight[1], weight[2]});
-}
 
 // The last one is there more than once, since compilers compute four axes at a time.
 constexpr int kAxes = 16;
@@ -61,39 +47,32 @@ TurnedFace::TurnedFace(const Vector3& a, const Vector3& b, const Vector3& c)
   height_ = square[p_] > 0 ? normal_.norm() / length_ : 0;
   const Vector3& p = x(p_);
   foot_ = (x((p_ + 2) % 3) - p).dot(x((p_ + 1) % 3) - p) / (length_ * length_);
+  per_length_ = 1 / length_;
+  per_height_ = 1 / height_;
+  flat_ = length_ / height_;
+  slant_ = std::sqrt(1 + flat_ * flat_);
 }
 
-MSPSKEL_AVX_CLONES bool TurnedFace::turns_over(const Vector3& joint,
-                                               const std::array<double, 3>& weight) const {
+MSPSKEL_AVX_CLONES bool TurnedFace::may_turn_over(const Vector3& joint,
+                                                  const std::array<double, 3>& weight) const {
   if (!(height_ > 0)) return false;
-  const double far = (middle_ - joint).norm(), change = change_of(weight);
-  return !is_gentle(far, change) && !is_safe(far, change, weight) && turns_over_about_axes(joint, weight);
-}
-
-// With the parts of is_safe replaced by the most that they can be where weights differ by so much.
-bool TurnedFace::is_gentle(double far, double change) const {
-  return kMove * change * (1.33 * far + 2.95 * length_) <= 0.6 * height_;
+  return !is_safe((middle_ - joint).norm(), weight) && turns_over_about_axes(joint, weight);
 }
 
 // Whatever the axis. With p and q the ends of the longest edge, r the third corner and t where its height
 // stands on the edge: where weights change evenly along the edge and r has that of its foot, what is farther
 // along turns by more, so r leaves the line through p and q by a bow.
-bool TurnedFace::is_safe(double far, double change, const std::array<double, 3>& weight) const {
+bool TurnedFace::is_safe(double far, const std::array<double, 3>& weight) const {
   const std::size_t p = p_, q = p == 2 ? 0 : p + 1, r = p == 0 ? 2 : p - 1;
   const double t = foot_;
   const double along = weight[q] - weight[p], across = weight[r] - weight[p] - t * along;
-  // As shares of edge and height, each with its bow.
-  const double e = kMove * std::abs(along) * far / length_, h = kMove * std::abs(across) * far / height_;
-  const auto is_little = [&](double f, double g) {
-    return std::sqrt(e * e + h * h) + f + g + e * g + f * h + f * g <= kSafe;
-  };
-  // A corner is at most 2/3 of the longest edge from the middle, its weight 2/3 of the change from the mean.
-  const double most = kMove * 8 / 9 * change;
-  if (is_little(most, most * length_ / height_)) return true;
   const double whole = mean(weight);
   const auto bow = [&](std::size_t k) -> Vector3 { return (weight[k] - whole) * (x(k) - middle_); };
   const Vector3 edge_bow = bow(q) - bow(p), height_bow = bow(r) - bow(p) - t * edge_bow;
-  return is_little(kMove * edge_bow.norm() / length_, kMove * height_bow.norm() / height_);
+  // As shares of edge and height, each with its bow.
+  const double e = kMove * std::abs(along) * far / length_, f = kMove * edge_bow.norm() / length_;
+  const double h = kMove * std::abs(across) * far / height_, g = kMove * height_bow.norm() / height_;
+  return std::sqrt(e * e + h * h) + f + g + e * g + f * h + f * g <= kSafe;
 }
 
 bool TurnedFace::turns_over_about_axes(const Vector3& joint, const std::array<double, 3>& weight) const {

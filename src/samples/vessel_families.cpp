@@ -16,12 +16,18 @@ struct Vessel {
 
   void body(const std::vector<BallNode>& profile) { chain(profile); }
 
-  // A tube through these places, the first and perhaps the last of which are joints in the body.
-  void tube(const std::vector<Vector3>& places, double radius, double first_joint, double last_joint) {
-    std::vector<BallNode> nodes;
-    for (const Vector3& place : places) nodes.push_back({place, radius});
-    chain(nodes);
-    thinnest = std::min(thinnest, radius);
+  // A tube through these places, the first of which is a joint in the body, with a round end.
+  void limb(const std::vector<Vector3>& places, double radius, double joint) {
+    tube(places, radius);
+    const Vector3 &before = places[places.size() - 2], &end = places.back();
+    for (std::size_t i = 1; i + 1 < places.size(); ++i)
+      truth.arc(places[i - 1], i == 1 ? joint : radius, places[i], radius);
+    truth.limb(before, places.size() == 2 ? joint : radius, end + radius * (end - before).normalized(),
+               radius);
+  }
+  // A tube from joint to joint.
+  void handle(const std::vector<Vector3>& places, double radius, double first_joint, double last_joint) {
+    tube(places, radius);
     for (std::size_t i = 1; i < places.size(); ++i)
       truth.arc(places[i - 1], i == 1 ? first_joint : radius, places[i],
                 i + 1 == places.size() ? last_joint : radius);
@@ -40,6 +46,13 @@ struct Vessel {
   }
 
  private:
+  void tube(const std::vector<Vector3>& places, double radius) {
+    std::vector<BallNode> nodes;
+    for (const Vector3& place : places) nodes.push_back({place, radius});
+    chain(nodes);
+    thinnest = std::min(thinnest, radius);
+  }
+
   void chain(const std::vector<BallNode>& nodes) {
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       graph.nodes.push_back(nodes[i]);
@@ -90,7 +103,7 @@ Family vase() {
                           middle.z() + 0.5 * (kHigh - kLow) * std::sin(angle)});
       }
       places.push_back(high);
-      vessel.tube(places, 0.17, kBelly, kNeck);
+      vessel.handle(places, 0.17, kBelly, kNeck);
     }
     return vessel;
   };
@@ -114,10 +127,9 @@ Family teapot() {
     vessel.graph.blend = 0.15;
     vessel.floor = -1;
     vessel.body({{{0, 0, -0.05}, kBody}, {{0, 0, 0.05}, kBody}});
-    const Vector3 spout(2.9, 0, 1.25), bend(2.1, 0, 0.6), root(1.2, 0, -0.1), knob(0, 0, 2);
-    vessel.tube({middle, root, bend, spout + (1 - kEndDepth) * kSpout * (spout - bend).normalized()}, kSpout,
-                kBody, kSpout);
-    vessel.tube({middle, knob}, kKnob, kBody, kKnob);
+    const Vector3 spout(3.04, 0, 1.36), bend(2.1, 0, 0.6), root(1.2, 0, -0.1), knob(0, 0, 2);
+    vessel.limb({middle, root, bend, spout}, kSpout, kBody);
+    vessel.limb({middle, knob}, kKnob, kBody);
     std::vector<Vector3> handle{middle};
     constexpr Index kPieces = 16;
     for (Index k = 0; k <= kPieces; ++k) {
@@ -125,7 +137,7 @@ Family teapot() {
       handle.push_back({-1 - 1.2 * std::cos(angle), 0, 0.05 + 0.6 * std::sin(angle)});
     }
     handle.push_back(middle);
-    vessel.tube(handle, 0.15, kBody, kBody);
+    vessel.handle(handle, 0.15, kBody, kBody);
     return vessel;
   };
   return vessel_family(facts("teapot", "a round body with a spout, a knob and a handle", 1, 2, 4000, 2000),

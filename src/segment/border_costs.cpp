@@ -1,18 +1,27 @@
 #include "mspskel/segment/border_costs.h"
 
-#include <Eigen/SparseCore>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
 
+#include "mspskel/base/clones.h"
 #include "mspskel/base/error.h"
 
 namespace mspskel {
 namespace {
 
-using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
-using Columns = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+// Three right-hand sides at once; a fourth makes rows as long as a processor's registers.
+using Four = std::array<double, 4>;
+using Columns = std::vector<Four>;
+
+// A face has three neighbours, so with the face itself a row has four entries at most. They are in the order
+// of their columns; what is left over is 0 times column 0.
+struct Row {
+  Four value{};
+  std::array<Index, 4> column{};
+  double diagonal = 0;
+};
 
 // Share of the normals that conjugate gradients may leave unsolved: far below the angles that count.
 constexpr double kNormalError = 1e-3;
@@ -71,31 +80,85 @@ struct Faces {
   }
 };
 
+Four times(const Row& row, const Columns& x) {
+  Four sum{};
+  for (std::size_t k = 0; k < 4; ++k)
+    for (std::size_t c = 0; c < 4; ++c) sum[c] += row.value[k] * x[row.column[k]][c];
+  return sum;
+}
+void add_product(Four& sum, const Four& a, const Four& b) {
+  for (std::size_t c = 0; c < 4; ++c) sum[c] += a[c] * b[c];
+}
+Four share(const Four& a, const Four& b) {
+  Four shares{};
+  for (std::size_t c = 0; c < 4; ++c) shares[c] = b[c] > 0 ? a[c] / b[c] : 0.0;
+  return shares;
+}
+
 // Solves system * x = given by conjugate gradients with the diagonal as preconditioner, from the x given,
-// each column by itself: one pass over the matrix serves all three. The system is positive definite.
-void solve(const Matrix& system, const Columns& given, Columns& x) {
-  using Row = Eigen::Array<double, 1, 3>;
-  const auto dots = [](const Columns& a, const Columns& b) -> Row {
-    return a.cwiseProduct(b).colwise().sum().array();
+// each column by itself: one pass over the matrix serves all. The system is positive definite.
+MSPSKEL_AVX_CLONES void solve(const std::vector<Row>& system, const Columns& given, Columns& x) {
+  const std::size_t count = system.size();
+  Columns left(count), way(count), moved(count);
+  Four steep{}, enough{}, rest{};
+  for (std::size_t i = 0; i < count; ++i) {
+    const Four product = times(system[i], x);
+    const double weight = 1 / system[i].diagonal;
+    for (std::size_t c = 0; c < 4; ++c) {
+      left[i][c] = given[i][c] - product[c];
+      way[i][c] = weight * left[i][c];
+    }
+    add_product(steep, left[i], way[i]);
+    add_product(rest, left[i], left[i]);
+    add_product(enough, given[i], given[i]);
+  }
+  for (double& most : enough) most *= kNormalError * kNormalError;
+  const auto is_solved = [&] {
+    for (std::size_t c = 0; c < 4; ++c)
+      if (rest[c] > enough[c]) return false;
+    return true;
   };
-  const auto share = [](const Row& a, const Row& b) -> Row {
-    return Row((b > 0).select(a / b, Row::Zero()));
-  };
-  const Eigen::VectorXd weight = system.diagonal().cwiseInverse();
-  Columns left = given - system * x, way = weight.asDiagonal() * left, moved(given.rows(), 3);
-  Row steep = dots(left, way);
-  const Row enough = kNormalError * kNormalError * dots(given, given);
-  for (Eigen::Index round = 0; round < given.rows() && (dots(left, left) > enough).any(); ++round) {
-    moved.noalias() = system * way;
-    const Row step = share(steep, dots(way, moved));
-    x.array() += way.array().rowwise() * step;
-    left.array() -= moved.array().rowwise() * step;
-    moved.noalias() = weight.asDiagonal() * left;
-    const Row next = dots(left, moved);
-    way.array().rowwise() *= share(next, steep);
-    way += moved;
+  for (std::size_t round = 0; round < count && !is_solved(); ++round) {
+    Four bent{};
+    for (std::size_t i = 0; i < count; ++i) {
+      moved[i] = times(system[i], way);
+      add_product(bent, way[i], moved[i]);
+    }
+    const Four step = share(steep, bent);
+    Four next{};
+    rest = Four{};
+    for (std::size_t i = 0; i < count; ++i) {
+      const double weight = 1 / system[i].diagonal;
+      Four eased{};
+      for (std::size_t c = 0; c < 4; ++c) {
+        x[i][c] += way[i][c] * step[c];
+        left[i][c] -= moved[i][c] * step[c];
+        eased[c] = weight * left[i][c];
+      }
+      moved[i] = eased;
+      add_product(next, left[i], eased);
+      add_product(rest, left[i], left[i]);
+    }
+    const Four kept = share(next, steep);
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t c = 0; c < 4; ++c) way[i][c] = way[i][c] * kept[c] + moved[i][c];
     steep = next;
   }
+}
+
+// Adds to the entry of the column; there are `count` so far, in the order of their columns.
+void add(Row& row, std::size_t& count, Index column, double value) {
+  std::size_t at = 0;
+  while (at < count && row.column[at] < column) ++at;
+  if (at == count || row.column[at] != column) {
+    for (std::size_t k = count++; k > at; --k) {
+      row.column[k] = row.column[k - 1];
+      row.value[k] = row.value[k - 1];
+    }
+    row.column[at] = column;
+    row.value[at] = 0;
+  }
+  row.value[at] += value;
 }
 
 // After one implicit step of diffusion over the faces: (M + reach^2 L) x = M n. Reaches span few faces, so
@@ -108,29 +171,33 @@ std::vector<Vector3> unit_normals(const SurfaceSnapshot& surface, const Faces& f
     for (Index i = 0; i < count; ++i) normals[i] = faces.weighted_normal[i].normalized();
     return normals;
   }
-  Matrix system(count, count);
-  system.reserve(Eigen::VectorXi::Constant(count, 4));
-  Columns given(count, 3), solution(count, 3);
+  std::vector<Row> system(count);
+  Columns given(count), solution(count);
   const double least_apart = 1e-3 * std::sqrt(faces.mean);
   for (Index i = 0; i < count; ++i) {
     // Faces without area follow their neighbours.
     const double area = faces.area[i] + 1e-9 * faces.mean;
     double own = area;
+    std::size_t entries = 0;
     for (Index k = 0; k < 3; ++k) {
       const Index j = faces.neighbour[i][k];
       if (j == kNone) continue;
       const double flow = reach * reach * surface.edge_length(3 * faces.face[i] + k) /
                           std::max(faces.apart[i][k], least_apart);
       own += flow;
-      system.coeffRef(i, j) -= flow;
+      add(system[i], entries, j, -flow);
     }
-    system.coeffRef(i, i) += own;
-    given.row(i) = faces.weighted_normal[i];
-    solution.row(i) = faces.weighted_normal[i] / area;
+    add(system[i], entries, i, own);
+    for (std::size_t k = 0; k < 4; ++k)
+      if (k < entries && system[i].column[k] == i) system[i].diagonal = system[i].value[k];
+    for (Index c = 0; c < 3; ++c) {
+      given[i][c] = faces.weighted_normal[i][c];
+      solution[i][c] = faces.weighted_normal[i][c] / area;
+    }
   }
-  system.makeCompressed();
   solve(system, given, solution);
-  for (Index i = 0; i < count; ++i) normals[i] = solution.row(i).normalized();
+  for (Index i = 0; i < count; ++i)
+    normals[i] = Vector3(solution[i][0], solution[i][1], solution[i][2]).normalized();
   return normals;
 }
 

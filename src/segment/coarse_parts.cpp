@@ -4,6 +4,7 @@
 #include <array>
 #include <limits>
 
+#include "mspskel/base/clones.h"
 #include "mspskel/mesh/detail/triangle_queries.h"
 
 namespace mspskel::detail {
@@ -23,15 +24,23 @@ Index nearest_face(const SurfaceSnapshot& surface, const std::array<Index, 3>& v
   Index nearest = kNone;
   for (int k = 0; k < 3; ++k) {
     if (std::find(vertices.begin(), vertices.begin() + k, vertices[k]) != vertices.begin() + k) continue;
+    // Those that have an earlier vertex, too, were measured there.
+    const auto is_measured = [&](Index f) {
+      for (int i = 0; i < k; ++i)
+        for (Index corner = 3 * f; corner < 3 * f + 3; ++corner)
+          if (surface.origin[corner] == vertices[i]) return true;
+      return false;
+    };
     const Index first = surface.vertex_halfedge[vertices[k]];
     Index h = first;
     do {
-      const double square = (closest_on_triangle(x, triangle_of(surface, h / 3)) - x).squaredNorm();
-      if (square < least) {
-        least = square;
-        nearest = h / 3;
-      }
+      const Index f = h / 3;
       h = surface.next_outgoing(h);
+      if (is_measured(f)) continue;
+      const double square = (closest_on_triangle(x, triangle_of(surface, f)) - x).squaredNorm();
+      if (square >= least) continue;
+      least = square;
+      nearest = f;
     } while (h != first);
   }
   return nearest;
@@ -55,8 +64,8 @@ CurveSkeleton on_coarse_surface(const SurfaceSnapshot& surface, const CoarseSurf
   return carried;
 }
 
-CarriedParts carried_to_input(const SurfaceSnapshot& surface, const CoarseSurface& coarse,
-                              const std::vector<Index>& part_of_coarse_face) {
+MSPSKEL_AVX_CLONES CarriedParts carried_to_input(const SurfaceSnapshot& surface, const CoarseSurface& coarse,
+                                                 const std::vector<Index>& part_of_coarse_face) {
   const SurfaceSnapshot& from = coarse.surface;
   // Within a part all faces round a vertex have it, so nothing has to be measured there.
   std::vector<Index> around(from.vertex_count(), kNone);

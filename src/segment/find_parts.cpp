@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 
 #include "cross_sections.h"
@@ -17,6 +18,9 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kStraightened = kPi / 4;
 // No taper is wider than the widest cross-section by more than rounding.
 constexpr double kRounded = 1 - 1e-9;
+
+// Where both are about as large, noise decides which is the larger one; this passes from one to the other.
+double soft_maximum(double a, double b) { return std::pow(std::pow(a, 8) + std::pow(b, 8), 0.125); }
 
 using Edge = std::array<Index, 2>;
 
@@ -111,7 +115,7 @@ class PartFinder {
   // The part's cross-sections on either side of the edge a-b, by distance along the skeleton. Nodes are taken
   // in the order in which they are first reached, and again where a shorter way turns up, which on trees
   // never happens.
-  std::array<std::vector<CrossSection>, 2> sides_of(Index a, Index b, double limit) {
+  const std::array<std::vector<CrossSection>, 2>& sides_of(Index a, Index b, double limit) {
     reached_.clear();
     const auto reach = [&](Index n, double distance, char side) {
       if (distance > limit || distance >= distance_[n]) return;
@@ -126,13 +130,13 @@ class PartFinder {
       for (const Index k : next_[n])
         if (part_[k] == part_[n]) reach(k, distance_[n] + length(n, k), side_[n]);
     }
-    std::array<std::vector<CrossSection>, 2> sides;
+    for (std::vector<CrossSection>& sections : sides_) sections.clear();
     for (const Index n : reached_) {
       if (distance_[n] == kInfinite) continue;
-      sides[side_[n]].push_back({size_[n], distance_[n]});
+      sides_[side_[n]].push_back({size_[n], distance_[n]});
       distance_[n] = kInfinite;
     }
-    return sides;
+    return sides_;
   }
   // The widest straight taper over the edge a-b, from the largest cross-section near it on one side to any on
   // the other side: its radius at the edge. Kept until a cut comes near.
@@ -143,7 +147,7 @@ class PartFinder {
     return known;
   }
   double search_taper(Index a, Index b, double widest) {
-    const auto sides = sides_of(a, b, options_.reach * widest);
+    const auto& sides = sides_of(a, b, options_.reach * widest);
     double best = 0;
     for (int side = 0; side < 2; ++side) {
       CrossSection y;
@@ -191,42 +195,41 @@ class PartFinder {
     return smaller > 0 && smaller >= options_.smallest * total_ &&
            smaller >= options_.slenderness * perimeter * perimeter;
   }
-  double score(double radius, double contrast, double area, double whole) const {
-    return contrast * 2 * kPi * radius / std::sqrt(std::min(area, whole - area));
+  double score(double radius, double area, double whole) const {
+    return 2 * kPi * radius / std::sqrt(std::min(area, whole - area));
   }
   // For a contrast of `least` or more: tapers cost most of the search, so they wait until this holds.
   bool may_be_cleaner(const Cut& best, double radius, double least, double area, double whole) const {
     return least <= options_.contrast && is_part(radius, area, whole) &&
-           score(radius, least, area, whole) < best.score;
+           score(radius, area, whole) < best.score;
   }
   // Keeps the cut if it is clean enough and cleaner than the best. `contrast` is the cross-section's share of
   // the taper's.
   void consider(Cut& best, double radius, double contrast, double area, double whole,
-                std::vector<Edge> edges) const {
+                std::initializer_list<Edge> edges) const {
     if (contrast > options_.contrast || !is_part(radius, area, whole)) return;
-    const double found = score(radius, contrast, area, whole);
-    if (found < best.score) best = {found, best.widest, std::move(edges)};
+    const double found = score(radius, area, whole);
+    if (found < best.score) best = {found, best.widest, edges};
   }
 
   // The edge above a node, where it could be cut by its size.
   struct Bridge {
     Index node;
-    double radius, least_score;  // no taper is wider than what it is between
+    double radius, score;
   };
-  // Those that could be cleanest first: the search for tapers ends where no other can be cleaner.
+  // The cleanest first: the search for tapers ends at the first that has the contrast.
   std::vector<Bridge> bridges_of(const detail::PartTree& tree, double widest) const {
     std::vector<Bridge> bridges;
     const double whole = tree.area[tree.order[0]];
     for (const Index n : tree.order) {
       if (!tree.is_bridge(n)) continue;
       const double radius =
-          std::max(0.5 * (size_[tree.parent[n]] + size_[n]), kStraightened * tree.border[n] / (2 * kPi));
+          soft_maximum(0.5 * (size_[tree.parent[n]] + size_[n]), kStraightened * tree.border[n] / (2 * kPi));
       if (radius > options_.contrast * widest || !is_part(radius, tree.area[n], whole)) continue;
-      const double smaller = std::min(tree.area[n], whole - tree.area[n]);
-      bridges.push_back({n, radius, radius / widest * 2 * kPi * radius / std::sqrt(smaller)});
+      bridges.push_back({n, radius, score(radius, tree.area[n], whole)});
     }
     std::stable_sort(bridges.begin(), bridges.end(),
-                     [](const Bridge& a, const Bridge& b) { return a.least_score < b.least_score; });
+                     [](const Bridge& a, const Bridge& b) { return a.score < b.score; });
     return bridges;
   }
   Cut cleanest_cut(Index root) {
@@ -236,10 +239,10 @@ class PartFinder {
     Cut best;
     best.widest = widest;
     for (const Bridge& bridge : bridges_of(tree, widest)) {
-      if (bridge.least_score >= best.score) break;
+      if (bridge.score >= best.score) break;
       const Index n = bridge.node, m = tree.parent[n];
       consider(best, bridge.radius, bridge.radius / tapered(m, n, widest), tree.area[n], tree.area[root],
-               {{m, n}});
+               {Edge{m, n}});
     }
     for (const std::vector<Index>& chain : chains_on_cycles(tree))
       cut_stretch(best, chain, widest, tree.area[root]);
@@ -295,7 +298,7 @@ class PartFinder {
         const double wider = std::max(radius[i], radius[j]);
         if (!may_be_cleaner(best, wider, std::max(least[i], least[j]), area, whole)) continue;
         consider(best, wider, std::max(contrast_at(i), contrast_at(j)), area, whole,
-                 {{chain[i], chain[i + 1]}, {chain[j], chain[j + 1]}});
+                 {Edge{chain[i], chain[i + 1]}, Edge{chain[j], chain[j + 1]}});
       }
     }
   }
@@ -311,6 +314,7 @@ class PartFinder {
   std::vector<double> distance_;  // of sides_of, and infinite between its calls
   std::vector<char> side_;
   std::vector<Index> reached_;
+  std::array<std::vector<CrossSection>, 2> sides_;
   std::vector<Index> root_;  // per part: one of its nodes
   std::vector<Cut> cut_;     // per part: its cleanest
   double total_ = 0;

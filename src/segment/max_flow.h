@@ -50,7 +50,8 @@ class MaxFlow {
     std::fill(level_.begin(), level_.end(), kNone);
     level_[source] = 0;
     queue_.assign(1, source);
-    for (std::size_t i = 0; i < queue_.size(); ++i)
+    // No path of fewest arcs has a node as far as the sink.
+    for (std::size_t i = 0; i < queue_.size() && level_[sink] == kNone; ++i)
       for (Index a = first_[queue_[i]]; a != kNone; a = arcs_[a].next)
         if (arcs_[a].open() && level_[arcs_[a].to] == kNone) {
           level_[arcs_[a].to] = level_[queue_[i]] + 1;

@@ -423,6 +423,25 @@ TEST_CASE("The handle of a hammer is a limb, and both ends of its head have tips
   }
 }
 
+TEST_CASE("Leaves of a hammer's head are aimed at the middles of its ends") {
+  // Seen from the handle the edges of the ends are farthest.
+  for (const Section section : {Section::kSquare, Section::kRound})
+    for (const double width : {0.15, 0.4}) {
+      SampleOptions options;
+      options.section = section;
+      options.ratio = width;
+      const Solid solid(to_mesh(make_sample("hammer", options)));
+      Index ends = 0;
+      for (const LimbTip& tip : tips_of(solid)) {
+        const Vector3 target = solid.model(tip.target);
+        if (std::abs(target.x()) < 3) continue;
+        ++ends;
+        CHECK(std::hypot(target.y(), target.z()) < 0.1);
+      }
+      CHECK(ends == 2);
+    }
+}
+
 TEST_CASE("A knob on the farthest limb hides neither that limb nor the others") {
   BallGraph limbs = tripod();
   limbs.nodes.push_back({{0.75, 0, 2.9}, 0.12});

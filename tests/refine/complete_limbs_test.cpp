@@ -54,6 +54,43 @@ ArcGraph straight_axis(const Solid& solid, double from, double to) {
   return graph;
 }
 
+// A ring of outer radius 1, inner radius `bore` and thickness 0.4 round the z axis, with teeth of length 0.5
+// and width 0.45 on its outside.
+DefaultMesh ring_gear(Index teeth, double bore) {
+  constexpr Index kBetween = 4;  // points of the rim between two teeth
+  constexpr double kHalfWidth = 0.225, kTip = 1.5, kHalfThickness = 0.2;
+  const double half_angle = std::asin(kHalfWidth), pitch = 2 * kPi / teeth;
+  std::vector<Vector3> outer;
+  for (Index t = 0; t < teeth; ++t) {
+    const Vector3 out(std::cos(t * pitch), std::sin(t * pitch), 0), across(-out.y(), out.x(), 0);
+    for (const double side : {-1.0, 1.0}) {
+      const Vector3 root = std::cos(half_angle) * out + side * kHalfWidth * across;
+      const Vector3 tip = kTip * out + side * kHalfWidth * across;
+      outer.push_back(side < 0 ? root : tip);
+      outer.push_back(side < 0 ? tip : root);
+    }
+    for (Index i = 1; i <= kBetween; ++i) {
+      const double angle = t * pitch + half_angle + i * (pitch - 2 * half_angle) / (kBetween + 1);
+      outer.push_back({std::cos(angle), std::sin(angle), 0});
+    }
+  }
+  PolygonSoup soup;
+  const Vector3 up(0, 0, kHalfThickness);
+  for (const Vector3& x : outer) {
+    const Vector3 inner = bore * x.normalized();
+    for (const Vector3& corner : {Vector3(inner - up), Vector3(x - up), Vector3(x + up), Vector3(inner + up)})
+      soup.points.push_back(corner);
+  }
+  const auto count = static_cast<Index>(outer.size());
+  for (Index i = 0; i < count; ++i)
+    for (Index k = 0; k < 4; ++k) {
+      const Index j = (i + 1) % count, l = (k + 1) % 4;
+      soup.add_triangle(4 * i + k, 4 * i + l, 4 * j + l);
+      soup.add_triangle(4 * i + k, 4 * j + l, 4 * j + k);
+    }
+  return to_mesh(soup);
+}
+
 // A horn along the x axis whose radius falls from 1 to 1/20, with a spike of one vertex on a face of every
 // fourth ring, as long as `spike` radii there.
 PolygonSoup horn_with_spikes(double spike, int& spikes) {
@@ -129,6 +166,19 @@ TEST_CASE("The head of a hammer has both its ends, however short it is") {
     CHECK(left == 1);
     CHECK(right == 1);
   }
+}
+
+TEST_CASE("Equal teeth of a ring are told alike") {
+  // The middle of a ring lies in no material, so that the distance from some place in it tells the teeth.
+  for (const Index teeth : {3, 5, 8})
+    for (const double bore : {0.5, 0.7})
+      for (const double angle : {0.0, 1.1}) {
+        const DefaultMesh gear = rotated(ring_gear(teeth, bore), Vector3(1, 2, 0.5).normalized(), angle);
+        const GraphCounts counts = count_graph(extract_skeleton(gear).skeleton);
+        INFO(teeth << " teeth, bore " << bore << ", turned by " << angle);
+        CHECK(counts.cycles == 1);
+        CHECK(counts.leaves == teeth);
+      }
 }
 
 TEST_CASE("Most spikes of one vertex on an input get their arcs, and stubs none") {

@@ -319,6 +319,62 @@ TEST_CASE("open ends of a tube are openings with centre, normal and radius") {
   REQUIRE_THROWS_WITH(mend_soup(soup, options), Contains("2 holes"));
 }
 
+TEST_CASE("the end of a tube is one opening as well where it is ragged") {
+  struct Cut {
+    const char* name;
+    double slope;  // of the plane, across the axis
+    int waves;     // round the axis
+    double height, jag,
+        lost;  // of the waves; how far faces stick out; share of the last faces that are missing
+  };
+  const Cut cut = GENERATE(Cut{"teeth", 0, 0, 0, 0, 0}, Cut{"jags", 0, 0, 0, 0.2, 0},
+                           Cut{"jags", 0, 0, 0, 0.4, 0}, Cut{"lost faces", 0, 0, 0, 0, 0.1},
+                           Cut{"lost faces", 0, 0, 0, 0, 0.3}, Cut{"slanted teeth", 1, 0, 0, 0, 0},
+                           Cut{"steep teeth", 1.4, 0, 0, 0, 0}, Cut{"slanted, lost faces", 0.6, 0, 0, 0, 0.2},
+                           Cut{"waves", 0, 3, 0.4, 0, 0}, Cut{"more waves", 0, 7, 0.3, 0, 0});
+  const bool turned = GENERATE(true, false);
+  INFO(cut.name << (turned ? ", inside out" : ""));
+  Random random(7);
+  const PolygonSoup clean = to_soup(tube(1, 8, 24, 40));
+  PolygonSoup soup = without_faces(clean, [&](const Vector3& p) {
+    const double end = 5 - cut.slope * p.x() + cut.height * std::sin(cut.waves * std::atan2(p.y(), p.x())) +
+                       cut.jag * (2 * random.uniform() - 1);
+    return p.z() > end || (p.z() > end - 0.3 && random.uniform() < cut.lost);
+  });
+  if (turned) soup = inside_out(soup);
+  const MendedSoup mended = mend_soup(soup);
+  REQUIRE(mended.openings.size() == 1);
+  const Opening& opening = mended.openings[0];
+  const Vector3 normal = Vector3(cut.slope, 0, 1).normalized();
+  REQUIRE(opening.normal.dot(normal) > 0.97);
+  REQUIRE((opening.centre - Vector3(0, 0, 5)).norm() < 0.4);
+  REQUIRE(opening.radius > 0.85);
+  REQUIRE(opening.radius < 1.4);
+  REQUIRE(facts_of(mended).genus == 0);
+  REQUIRE(facts_of(mended).volume == Approx(5 * kPi).epsilon(0.08));
+  // No folds between teeth and centre: the cap is hardly larger than one in the plane.
+  double cap = 0;
+  for (std::size_t i = 0; i < mended.soup.corners.size(); i += 3) {
+    const Index* c = &mended.soup.corners[i];
+    if (std::find(c, c + 3, opening.vertex) == c + 3) continue;
+    const auto at = [&](int k) { return Vector3(mended.soup.points[c[k]] - mended.soup.points[c[0]]); };
+    cap += at(1).cross(at(2)).norm() / 2;
+  }
+  REQUIRE(cap < 1.2 * kPi / normal.z());
+  for (const Index corner : soup.corners)
+    if (std::abs(soup.points[corner].z()) < 4) REQUIRE(mended.vertex_of_point[corner] != kNone);
+}
+
+TEST_CASE("a window in the side of a tube is no end of it, however large and ragged") {
+  const double wide = GENERATE(0.4, 0.8, 1.2), jag = GENERATE(0.0, 0.2);
+  Random random(3);
+  const MendedSoup mended = mend_soup(without_faces(to_soup(tube(1, 8, 24, 40)), [&](const Vector3& p) {
+    return std::hypot(std::atan2(p.y(), p.x()), p.z() - 4) < wide + jag * (random.uniform() - 0.5);
+  }));
+  REQUIRE(mended.openings.empty());
+  REQUIRE(facts_of(mended).genus == 0);
+}
+
 TEST_CASE("crumbs go unless they are wanted") {
   PolygonSoup soup = torus_soup();
   append(soup, moved(to_soup(scaled(tetrahedron(), 0.02)), Eigen::Matrix3d::Identity(), {3, 0, 0}));

@@ -63,6 +63,10 @@ TEST_CASE("an end of the truth is a quarter of the half width below the surface,
   double lowest = 0;
   for (const SkeletonNode& node : hammer.nodes) lowest = std::min(lowest, node.position.z());
   CHECK(lowest == Approx(-9 + 0.25 * 0.4));
+  const CurveSkeleton teapot = sample_truth("teapot");
+  double highest = 0;
+  for (const SkeletonNode& node : teapot.nodes) highest = std::max(highest, node.position.y());
+  CHECK(highest == Approx(2 + 0.75 * 0.22));
 }
 
 TEST_CASE("long triangles keep the topology, the solid and its sharp edges") {

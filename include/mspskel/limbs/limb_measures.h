@@ -70,9 +70,14 @@ inline bool is_slab_corner(double depth, double depth_over_mouth, double slender
          depth_over_mouth * (2 + relative) < slack * kPi;
 }
 
-// The bend of a bar, the bow of a handle, the corner where bars meet: hardly sharper than the corner of a
-// block, whose depth is 0.855 of its mouth's radius, and its slices are hardly smaller than those beside it.
-inline bool is_bend(const LimbMeasures& m) { return m.depth_over_mouth < 1.25 * 0.855 && m.msp_ratio < 1.4; }
+// Whether a part is hardly sharper than the corner of a block, whose depth is 0.855 of its mouth's radius.
+inline bool is_block_corner(double depth_over_mouth) { return depth_over_mouth < 1.25 * 0.855; }
+
+// The bend of a bar, the bow of a handle, the corner where bars meet: its slices are hardly smaller than
+// those beside it.
+inline bool is_bend(const LimbMeasures& m) {
+  return is_block_corner(m.depth_over_mouth) && m.msp_ratio < 1.4;
+}
 
 // A fold of the surface onto itself, or a slit, that encloses nothing. Sheets are three times as thick at
 // least.
@@ -114,8 +119,10 @@ inline bool is_ear(const LimbMeasures& m, const LimbOptions& o) {
          !is_corner(m) && !is_flap(m);
 }
 
-// How slender a part that no arc comes near has to be to get one: as a digit, since the rest of the shape,
-// which the arcs cover, is no part of its measure.
-inline double uncovered_slenderness(const LimbOptions& o) { return kFinger * o.slenderness; }
+// How slender a part that no arc comes near has to be to get one: as a digit where it is blunt, since the
+// rest of the shape, which the arcs cover, is no part of its measure.
+inline double uncovered_slenderness(double depth_over_mouth, const LimbOptions& o) {
+  return is_blunt(depth_over_mouth) ? kFinger * o.slenderness : o.slenderness;
+}
 
 }  // namespace mspskel

@@ -78,8 +78,9 @@ struct MendError : MeshError {
 //   Copies of a face are one. Two opposite copies cancel where the faces beside them close without them, and
 //   are one face where they do not. A patch with a free edge that hangs on edges of three faces is a flap.
 //   Boundary points nearer than a twentieth of their shortest boundary edge are stitched.
-//   A loop is a tube's if its centre sees all of it and the wall within a radius of it runs along its normal
-//   rather than across.
+//   A loop is a tube's if the wall within a radius of it runs along an axis near its normal rather than
+//   across,
+// and its centre sees all of it where the notches between the teeth of a ragged end are filled.
 // A closed, manifold surface comes through with its vertices and triangles, apart from crumbs.
 // Throws MendError if nothing that encloses a volume is left, saying why and what would help, or if there is
 // a loop and open is kFail. Cost: O(n log n); a loop of n edges takes n³ up to 128 edges, n log n beyond.

@@ -9,6 +9,7 @@
 
 #include "mspskel/base/value_at_rank.h"
 #include "mspskel/limbs/detail/growing_parts.h"
+#include "mspskel/limbs/detail/limb_end.h"
 #include "mspskel/limbs/detail/part_level.h"
 #include "mspskel/limbs/detail/part_shape.h"
 #include "mspskel/limbs/limb_tips.h"
@@ -38,6 +39,7 @@ class LimbTipSearch {
         distance_(distance),
         half_area_(half_areas_of_components(surface)),
         walked_(surface.position.size(), 0),
+        end_(surface),
         flooded_(surface.position.size(), 0) {}
 
   std::vector<FoundLimb> run() {
@@ -204,7 +206,28 @@ class LimbTipSearch {
       if (distance_[tip.vertex] - distance_[v] <= end) sum.add_vertex(v);
     const PartShape shape = sum.shape(distance_[tip.vertex]);
     tip.target = shape.centre;
-    return shape.area > 0;
+    if (!(shape.area > 0)) return false;
+    set_straight_end(tip, end);
+    return true;
+  }
+
+  // Round a bend the levels cut a limb aslant: of the head of a hammer, seen from its handle, the farthest is
+  // an edge. Then the end is what lies farthest along the walls. A short limb has walls of other directions
+  // about its root, and what leads off at more than 45 degrees is none of its own.
+  void set_straight_end(LimbTip& tip, double end) {
+    constexpr double kLeastSlenderness = 2, kLength = 3, kEndLength = 2, kStraight = 0.95, kAslant = 0.7;
+    const LimbMeasures& m = tip.measures;
+    if (m.slenderness < kLeastSlenderness) return;
+    const auto near_tip = [&](double half_widths) {
+      return beyond(tip.vertex, distance_[tip.vertex] - std::min(m.depth, half_widths * m.half_width));
+    };
+    const std::optional<WallDirection> walls = direction_of_walls(surface_, near_tip(kLength));
+    if (!walls) return;
+    const double along = walls->axis.dot((tip.target - walls->middle).normalized());
+    if (std::abs(along) > kStraight || std::abs(along) < kAslant) return;
+    const Vector3 outward = along < 0 ? Vector3(-walls->axis) : walls->axis;
+    if (const std::optional<Vector3> middle = end_.middle(near_tip(kEndLength), outward, end))
+      tip.target = *middle;
   }
 
   // The vertices beyond a level that hang together with a top; they are marked as walked.
@@ -327,6 +350,7 @@ class LimbTipSearch {
   std::vector<double> half_area_;  // of each component
   std::vector<Index> walked_;      // the last walk that came by
   Index walk_ = 0;
+  EndAlong end_;
   std::vector<Index> flooded_;  // the last flood that came by
   Index last_flood_ = 0;
   std::vector<FoundLimb> limbs_;

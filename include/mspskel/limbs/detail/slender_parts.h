@@ -87,12 +87,13 @@ std::vector<SlenderPart> slender_parts(const SurfaceSnapshot& surface, const std
         measure_few(part, v);
         const PartLevel level = notes.sum.at(distance[v], distance[part.top]);
         // Within rounding a line, which encloses nothing.
-        if (!(level.depth > least_depth(v)) || !(level.area > 1e-12 * level.depth)) return;
+        if (!(level.depth > least_depth(v)) || !(level.area > 1e-12 * level.depth) || !(level.mouth > 0) ||
+            level.area > half_area[surface.component[v]])
+          return;
         const double evidence = level.slenderness() * notes.vertices;
         const bool tells = evidence >= kLeastEvidence || is_twig(level);
         if (tells && (notes.slenderest.depth == 0 || level.slenderness() > notes.slenderest.slenderness()))
           notes.slenderest = level;
-        if (!(level.mouth > 0) || level.area > half_area[surface.component[v]]) return;
         // A mouth is a matter of fewer triangles, so that a depth of one edge suffices.
         if (evidence < 0.5 * kLeastEvidence) return;
         if (notes.narrowest.depth == 0 || level.depth_over_mouth() > notes.narrowest.depth_over_mouth())
