@@ -77,8 +77,8 @@ class Copies {
 
 class Crossings {
  public:
-  Crossings(const SurfaceSnapshot& surface, const std::vector<Shell>& shells)
-      : surface_(surface), shells_(shells), groups_(static_cast<Index>(shells.size())) {}
+  Crossings(const SurfaceSnapshot& surface, const std::vector<Shell>& shells, CrossingDepth depth)
+      : surface_(surface), shells_(shells), depth_(depth), groups_(static_cast<Index>(shells.size())) {}
 
   void run(const ProgressCallback& progress) {
     const std::vector<Index> near = faces_near_others(progress);
@@ -162,8 +162,9 @@ class Crossings {
   double least_depth(Index c, Index d) const {
     return std::min(least_depth(shells_[c]), least_depth(shells_[d]));
   }
-  static double least_depth(const Shell& shell) {
-    return std::min(kDepth * shell.extent(), kDepthInWidths * shell.width);
+  double least_depth(const Shell& shell) const {
+    const double deep = kDepth * shell.extent();
+    return depth_ == CrossingDepth::kDeep ? deep : std::min(deep, kDepthInWidths * shell.width);
   }
 
   bool reaches_into(Index c, Index d) {
@@ -173,6 +174,7 @@ class Crossings {
 
   const SurfaceSnapshot& surface_;
   const std::vector<Shell>& shells_;
+  CrossingDepth depth_;
   std::optional<BoundingVolumeHierarchy> near_;  // of the faces near other shells
   DisjointSets groups_;
   std::set<std::pair<Index, Index>> meetings_;  // pairs with an edge through a face, not deep
@@ -217,8 +219,8 @@ std::vector<Index> without_copies(const SurfaceSnapshot& surface, const std::vec
 
 std::vector<std::vector<Index>> crossing_groups(const SurfaceSnapshot& surface,
                                                 const std::vector<Shell>& shells,
-                                                const ProgressCallback& progress) {
-  Crossings crossings(surface, shells);
+                                                const ProgressCallback& progress, CrossingDepth depth) {
+  Crossings crossings(surface, shells, depth);
   crossings.run(progress);
   return crossings.groups();
 }

@@ -22,9 +22,11 @@ std::vector<Shell> shells_of(const SurfaceSnapshot& surface);
 std::vector<Index> without_copies(const SurfaceSnapshot& surface, const std::vector<Shell>& shells,
                                   const std::vector<Index>& members);
 
-// See crossing_shells in unite_shells.h.
+// See crossing_shells in unite_shells.h. kDeep: whatever the shells' width, as grids do not tell less.
+enum class CrossingDepth { kAny, kDeep };
 std::vector<std::vector<Index>> crossing_groups(const SurfaceSnapshot& surface,
                                                 const std::vector<Shell>& shells,
-                                                const ProgressCallback& progress);
+                                                const ProgressCallback& progress,
+                                                CrossingDepth depth = CrossingDepth::kAny);
 
 }  // namespace mspskel::detail

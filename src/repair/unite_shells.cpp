@@ -1,7 +1,11 @@
 #include "mspskel/repair/unite_shells.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <map>
+#include <numeric>
 #include <optional>
 
 #include "crossing_shells.h"
@@ -17,6 +21,7 @@
 namespace mspskel {
 namespace {
 
+using detail::InflatedShells;
 using detail::Shell;
 using detail::ShellGroup;
 using detail::WholePieces;
@@ -80,59 +85,87 @@ void split_along(detail::CutShells& cut, const std::vector<double>& thickness, I
   detail::split_long_edges(cut.soup, std::move(limit), std::max(kFewest, kMostAFace * faces));
 }
 
+// Whether no two vertices lie in one place, as readers take such for one.
+bool has_separate_points(const PolygonSoup& soup) {
+  constexpr double kSame = 1e-9;
+  std::vector<std::array<std::int64_t, 3>> places;
+  for (const Vector3& p : soup.points)
+    places.push_back({std::llround(p.x() / kSame), std::llround(p.y() / kSame), std::llround(p.z() / kSame)});
+  std::sort(places.begin(), places.end());
+  return std::adjacent_find(places.begin(), places.end()) == places.end();
+}
+
 // The union of the solids of shells that cross.
 class Union {
  public:
   // own: handles that the shells have.
   Union(const ShellGroup& group, Index own, const Fineness& fineness)
-      : group_(group), own_(own), fineness_(fineness) {}
+      : group_(group), own_(own), most_(own + static_cast<Index>(group.size())), fineness_(fineness) {}
+
+  // From the shells' own triangles. Where parts that touch leave slits, and these tiny handles, the shells
+  // are grown until they overlap: handles that stay are openings.
+  void cut(InflatedShells& inflated, const std::vector<Index>& members, const Execution& execution) {
+    constexpr double kGrowth = 5e-4;
+    const double extent = (group_.high() - group_.low()).norm();
+    for (const double growth : {0.0, kGrowth}) {
+      if (best_ && faults(*best_) == 0) return;
+      add_cut(growth == 0 ? group_ : inflated.grow(members, growth * extent, execution), execution);
+    }
+  }
+  // From a grid, unless a cut is there: the margin would close openings, too.
+  void sample(const Execution& execution) {
+    if (best_) return;
+    const double cell = fineness_.cell;
+    // Where shells nearly touch, their own triangles leave handles that a margin closes.
+    for (const double margin : {0.0, 0.5 * std::sqrt(3.0) * cell}) {
+      WholePieces pieces = detail::without_crumbs(detail::boundary_of_union(group_, cell, margin, execution));
+      if (pieces.genus <= most_ && is_better(pieces)) {
+        pieces.soup = detail::without_short_edges(pieces.soup, detail::kShortEdge * cell);
+        best_ = std::move(pieces);
+        is_cut_ = false;
+      }
+      if (best_ && faults(*best_) == 0) return;
+    }
+  }
 
   // Nothing if the union has more handles than its shells have and make by crossing: an assembly of parts in
   // contact, or walls too thin for the cells.
-  std::optional<WholePieces> run(const Execution& execution) {
-    constexpr double kShortest = 0.15;  // edges of a cut surface that tell nothing, in thicknesses
-    std::optional<WholePieces> best;
-    std::size_t made = group_.size();
-    std::optional<detail::CutShells> cut;
-    if (!fineness_.asked) cut = detail::cut_union(group_, execution);
-    if (cut) {
-      split_along(*cut, fineness_.thickness, static_cast<Index>(group_.faces().size()));
-      best = detail::without_crumbs(cut->soup);
-      if (best->solids == 0) best.reset();
-      // A tree of crossings closes no handle, each further pair may close one.
-      if (cut->crossings >= made) made = std::max(made, cut->crossings + 1 - made);
-    }
-    const auto most = own_ + static_cast<Index>(made);
-    is_cut_ = best.has_value();
-    if (!best || best->genus > most) sample(best, execution);
-    if (!best || best->genus > most) return std::nullopt;
-    best->soup = detail::without_short_edges(
-        best->soup, is_cut_ ? std::max(10 * detail::kShellShift, kShortest * fineness_.thinnest)
-                            : detail::kShortEdge * fineness_.cell);
-    return best;
-  }
+  std::optional<WholePieces> take() { return std::move(best_); }
+  bool found() const { return best_.has_value(); }
   bool is_cut() const { return is_cut_; }
 
  private:
   // Shells that cross hang together, and so does their union, unless parts of it are thinner than the cells.
   Index faults(const WholePieces& pieces) const {
-    return std::max<Index>(0, pieces.genus - own_) + pieces.solids - 1;
+    return std::max<Index>(0, pieces.genus - own_) + pieces.solids - 1 + pieces.cavities;
   }
-  // Where shells nearly touch, their own triangles leave handles that a margin closes.
-  void sample(std::optional<WholePieces>& best, const Execution& execution) {
-    const double cell = fineness_.cell;
-    for (const double margin : {0.0, 0.5 * std::sqrt(3.0) * cell}) {
-      if (best && faults(*best) == 0) return;
-      WholePieces pieces = detail::without_crumbs(detail::boundary_of_union(group_, cell, margin, execution));
-      if (pieces.solids == 0 || (best && faults(pieces) >= faults(*best))) continue;
-      best = std::move(pieces);
-      is_cut_ = false;
-    }
+  bool is_better(const WholePieces& pieces) const {
+    return pieces.solids > 0 && (!best_ || faults(pieces) < faults(*best_));
+  }
+
+  void add_cut(const ShellGroup& group, const Execution& execution) {
+    constexpr double kShortest = 0.15;  // edges of a cut surface that tell nothing, in thicknesses
+    constexpr double kPocket = 0.01;    // hollows that parts leave between them
+    std::optional<detail::CutShells> cut = detail::cut_union(group, execution);
+    if (!cut) return;
+    split_along(*cut, fineness_.thickness, static_cast<Index>(group.faces().size()));
+    WholePieces pieces = detail::without_crumbs(cut->soup, kPocket);
+    // A tree of crossings closes no handle, each further pair may close one.
+    const std::size_t further = cut->crossings + 1 - std::min(cut->crossings + 1, group.size());
+    const std::size_t made = std::max(group.size(), further);
+    most_ = std::max(most_, own_ + static_cast<Index>(made));
+    if (pieces.genus > most_ || !is_better(pieces)) return;
+    pieces.soup = detail::without_short_edges(
+        pieces.soup, std::max(10 * detail::kShellShift, kShortest * fineness_.thinnest));
+    if (!has_separate_points(pieces.soup)) return;
+    best_ = std::move(pieces);
+    is_cut_ = true;
   }
 
   const ShellGroup& group_;
-  Index own_;
-  Fineness fineness_;
+  Index own_, most_;  // handles
+  const Fineness& fineness_;
+  std::optional<WholePieces> best_;
   bool is_cut_ = false;
 };
 
@@ -222,6 +255,82 @@ class Uniting {
   UnitedShells united_;
 };
 
+class Groups {
+ public:
+  Groups(const SurfaceSnapshot& surface, const std::vector<Shell>& shells, const UniteOptions& options,
+         const Execution& execution, Uniting& uniting)
+      : surface_(surface),
+        shells_(shells),
+        options_(options),
+        execution_(execution),
+        uniting_(uniting),
+        euler_(twice_euler_characteristics(surface)) {}
+
+  void run(const std::vector<std::vector<Index>>& groups) {
+    for (const std::vector<Index>& members : groups) unite(members, true);
+  }
+
+ private:
+  // Where the cut fails, shells that cross less than a grid can tell stay apart.
+  void unite(const std::vector<Index>& members, bool may_part) {
+    const std::vector<Index> distinct = detail::without_copies(surface_, shells_, members);
+    if (distinct.size() == 1) {
+      uniting_.replace(members, own_faces(surface_, shells_[distinct[0]]), {}, execution_);
+      return;
+    }
+    Index own = 0;
+    for (const Index m : distinct) own += (4 - euler_[m]) / 4;
+    const ShellGroup group(surface_, shells_, distinct, execution_);
+    const Fineness fineness = fineness_for(group, options_);
+    Union one(group, own, fineness);
+    if (!fineness.asked) {
+      if (!inflated_) inflated_.emplace(surface_, shells_);
+      one.cut(*inflated_, distinct, execution_);
+    }
+    if (!one.found() && may_part) {
+      const std::vector<std::vector<Index>> parts = deep_parts(members);
+      if (parts.size() > 1) {
+        for (const std::vector<Index>& part : parts)
+          if (part.size() > 1)
+            unite(part, false);
+          else
+            uniting_.keep(part[0]);
+        return;
+      }
+    }
+    one.sample(execution_);
+    const bool is_cut = one.is_cut();
+    if (const std::optional<WholePieces> pieces = one.take())
+      uniting_.replace(members, *pieces, is_cut ? Fineness{} : fineness, execution_);
+    else
+      uniting_.leave_apart(members);
+  }
+
+  std::vector<std::vector<Index>> deep_parts(const std::vector<Index>& members) {
+    if (part_of_.empty()) {
+      part_of_.resize(shells_.size());
+      std::iota(part_of_.begin(), part_of_.end(), 0);
+      for (const std::vector<Index>& part :
+           detail::crossing_groups(surface_, shells_, execution_.progress, detail::CrossingDepth::kDeep))
+        for (const Index m : part) part_of_[m] = part[0];
+    }
+    std::map<Index, std::vector<Index>> by_part;
+    for (const Index m : members) by_part[part_of_[m]].push_back(m);
+    std::vector<std::vector<Index>> parts;
+    for (auto& [first, part] : by_part) parts.push_back(std::move(part));
+    return parts;
+  }
+
+  const SurfaceSnapshot& surface_;
+  const std::vector<Shell>& shells_;
+  const UniteOptions& options_;
+  const Execution& execution_;
+  Uniting& uniting_;
+  std::vector<Index> euler_;  // twice, per shell
+  std::optional<InflatedShells> inflated_;
+  std::vector<Index> part_of_;  // per shell: the first of those that it crosses deeply
+};
+
 }  // namespace
 
 void validate(const UniteOptions& options) {
@@ -261,23 +370,7 @@ UnitedShells unite_shells(const SurfaceSnapshot& surface, const std::vector<std:
   Uniting uniting(surface, shells);
   for (Index c = 0; c < surface.component_count; ++c)
     if (!grouped[c]) uniting.keep(c);
-  const std::vector<Index> euler = twice_euler_characteristics(surface);
-  for (const std::vector<Index>& members : groups) {
-    Index own = 0;
-    const std::vector<Index> distinct = detail::without_copies(surface, shells, members);
-    if (distinct.size() == 1) {
-      uniting.replace(members, own_faces(surface, shells[distinct[0]]), {}, execution);
-      continue;
-    }
-    for (const Index m : distinct) own += (4 - euler[m]) / 4;
-    const ShellGroup group(surface, shells, distinct, execution);
-    const Fineness fineness = fineness_for(group, options);
-    Union one(group, own, fineness);
-    if (const std::optional<WholePieces> pieces = one.run(execution))
-      uniting.replace(members, *pieces, one.is_cut() ? Fineness{} : fineness, execution);
-    else
-      uniting.leave_apart(members);
-  }
+  Groups(surface, shells, options, execution, uniting).run(groups);
   return uniting.take();
 }
 

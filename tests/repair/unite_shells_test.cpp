@@ -1,6 +1,8 @@
 // Shells that cross each other become one solid; all others stay as they are.
 #include "mspskel/repair/unite_shells.h"
 
+#include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 
 #include "mspskel/base/error.h"
@@ -150,6 +152,103 @@ TEST_CASE("a lattice of thin bars has the handles that its bars make, with faces
   CHECK(report.signed_volume ==
         Approx(4 * kHalf * kHalf * 2 * kBars * kBars - 8 * kHalf * kHalf * kHalf * kBars * kBars)
             .epsilon(1e-3));
+}
+
+TEST_CASE("parts in contact, or nearly, that pins hold together are one solid without handles") {
+  const PolygonSoup pins =
+      together({box({-1.6, -0.7, -0.83}, {-1.2, -0.3, 0.71}), box({1.1, 0.2, -0.77}, {1.4, 0.6, 0.79})});
+  const PolygonSoup plate = box({-2, -1, -0.5}, {2, 1, 0});
+  for (const double gap : {-1e-6, -1e-7, 0.0, 1e-7, 1e-5, 1e-3}) {
+    const auto stands = unite(together({plate, box({-1.9, -0.9, gap}, {1.9, 0.9, 0.5 + gap}), pins}));
+    REQUIRE(stands);
+    CHECK(stands->shells == 4);
+    CHECK(stands->solids == 1);
+    CHECK(stands->cell == 0);
+    const MeshReport report = report_of(stands->soup);
+    CHECK(report.components.size() == 1);
+    CHECK(report.genus == 0);
+    CHECK(report.signed_volume ==
+          Approx(8 * 0.5 + 3.8 * 1.8 * 0.5 + 0.16 * 0.54 + 0.12 * 0.56).epsilon(0.03));
+  }
+}
+
+TEST_CASE("boxes with faces in one plane are one solid without handles") {
+  for (const double step : {0.0, 1e-7, -1e-7, 1e-5}) {
+    const auto united =
+        unite(together({box({-2, -1, -0.5}, {0.3, 1, 0.5}), box({-0.2, -1 + step, -0.5}, {2, 1 + step, 0.5}),
+                        box({-1, -0.5, -0.5 + step}, {1, 0.5, 0.5 + step})}));
+    REQUIRE(united);
+    CHECK(united->solids == 1);
+    CHECK(united->cell == 0);
+    const MeshReport report = report_of(united->soup);
+    CHECK(report.components.size() == 1);
+    CHECK(report.genus == 0);
+    CHECK(report.signed_volume == Approx(8).epsilon(0.01));
+  }
+}
+
+TEST_CASE("a gap between parts that is wider than they grow is an opening") {
+  // Two plates, and two posts through both.
+  const auto united =
+      unite(together({box({-2, -1, 0}, {2, 1, 0.4}), box({-2, -1, 0.5}, {2, 1, 0.9}),
+                      box({-1.5, -0.2, -0.1}, {-1.1, 0.2, 1}), box({1, -0.2, -0.1}, {1.4, 0.2, 1})}));
+  REQUIRE(united);
+  CHECK(united->cell == 0);
+  CHECK(report_of(united->soup).genus == 1);
+}
+
+TEST_CASE("a small hollow that parts leave between them is filled, and a room is not") {
+  for (const double half : {0.15, 0.6}) {
+    std::vector<PolygonSoup> parts{box({-1, -1, -0.6}, {1, 1, -0.2}), box({-1, -1, 0.2}, {1, 1, 0.6})};
+    for (const double side : {-1.0, 1.0}) {
+      parts.push_back(box(Vector3(side, 0, 0) - Vector3(1 - half, 0.9, 0.3),
+                          Vector3(side, 0, 0) + Vector3(1 - half, 0.9, 0.3)));
+      parts.push_back(box(Vector3(0, side, 0) - Vector3(0.8, 1 - half, 0.25),
+                          Vector3(0, side, 0) + Vector3(0.8, 1 - half, 0.25)));
+    }
+    const auto united = unite(together(parts));
+    REQUIRE(united);
+    CHECK(united->solids == 1);
+    const MeshReport report = report_of(united->soup);
+    CHECK(report.components.size() == (half < 0.5 ? 1 : 2));
+    CHECK(report.genus == 0);
+  }
+}
+
+TEST_CASE("no two vertices of a union lie in one place, though a shell's tips meet in one") {
+  // A horseshoe whose pointed ends touch, and a bar through it.
+  const PolygonSoup shoe = to_soup(stacked_rings(
+      16, 40,
+      [](Index ring, Index segment) {
+        const double along = 2 * kPi * (ring + 1) / 41, angle = -2 * kPi * segment / 16;
+        const double radius = 0.3 * std::min(1.0, std::min(along, 2 * kPi - along));
+        const double far = 2 + radius * std::cos(angle);
+        return Vector3(far * std::cos(along), far * std::sin(along), radius * std::sin(angle));
+      },
+      Vector3(2, 0, 0), Vector3(2, 0, 0)));
+  const auto united = unite(together({shoe, box({-4, -0.1, -0.1}, {-1, 0.1, 0.1})}));
+  REQUIRE(united);
+  CHECK(united->shells == 2);
+  std::vector<std::array<double, 3>> places;
+  for (const Vector3& p : united->soup.points) places.push_back({p.x(), p.y(), p.z()});
+  std::sort(places.begin(), places.end());
+  CHECK(std::adjacent_find(places.begin(), places.end()) == places.end());
+}
+
+TEST_CASE("shells that cross by less than a grid tells stay as they are where one is asked for") {
+  // A hundredth as wide as long, and a fortieth of the width in each other.
+  const PolygonSoup bars =
+      together({box({-4, -0.04, -0.04}, {4, 0.04, 0.04}), box({-0.03, -4, 0.038}, {0.03, 4, 0.1})});
+  const SurfaceSnapshot surface = make_snapshot(build_mesh(bars));
+  const std::vector<std::vector<Index>> groups = crossing_shells(surface);
+  REQUIRE(groups.size() == 1);
+  CHECK(unite_shells(surface, groups, {}).solids == 1);
+  UniteOptions options;
+  options.cell = 0.01;
+  const UnitedShells apart = unite_shells(surface, groups, options);
+  CHECK(apart.shells == 0);
+  CHECK(apart.left_apart == 0);
+  CHECK(apart.soup.points.empty());
 }
 
 TEST_CASE("a tree of twigs far thinner than its extent is one piece without a loop") {
