@@ -463,6 +463,10 @@ Vector3 growth_at(const SurfaceSnapshot& surface, Index v) {
 const ShellGroup& InflatedShells::grow(const std::vector<Index>& members, double by,
                                        const Execution& execution) {
   constexpr double kMost = 0.01;  // of the width
+  if (shells_.empty()) {
+    surface_ = original_;
+    shells_ = original_shells_;
+  }
   std::mt19937 random(1);
   for (const Index m : members) {
     Shell& shell = shells_[m];

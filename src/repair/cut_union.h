@@ -24,7 +24,7 @@ struct CutShells {
 class InflatedShells {
  public:
   InflatedShells(const SurfaceSnapshot& surface, const std::vector<Shell>& shells)
-      : original_(surface), surface_(surface), original_shells_(shells), shells_(shells) {}
+      : original_(surface), original_shells_(shells) {}
 
   // The members grown by `by`, times one to one and a half, at most a hundredth of their width. Valid until
   // the next call.
@@ -32,8 +32,8 @@ class InflatedShells {
 
  private:
   const SurfaceSnapshot& original_;
-  SurfaceSnapshot surface_;
   const std::vector<Shell>& original_shells_;
+  SurfaceSnapshot surface_;  // copied when first asked for
   std::vector<Shell> shells_;
   std::optional<ShellGroup> group_;
 };

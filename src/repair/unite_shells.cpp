@@ -264,7 +264,8 @@ class Groups {
         options_(options),
         execution_(execution),
         uniting_(uniting),
-        euler_(twice_euler_characteristics(surface)) {}
+        euler_(twice_euler_characteristics(surface)),
+        inflated_(surface, shells) {}
 
   void run(const std::vector<std::vector<Index>>& groups) {
     for (const std::vector<Index>& members : groups) unite(members, true);
@@ -283,10 +284,7 @@ class Groups {
     const ShellGroup group(surface_, shells_, distinct, execution_);
     const Fineness fineness = fineness_for(group, options_);
     Union one(group, own, fineness);
-    if (!fineness.asked) {
-      if (!inflated_) inflated_.emplace(surface_, shells_);
-      one.cut(*inflated_, distinct, execution_);
-    }
+    if (!fineness.asked) one.cut(inflated_, distinct, execution_);
     if (!one.found() && may_part) {
       const std::vector<std::vector<Index>> parts = deep_parts(members);
       if (parts.size() > 1) {
@@ -327,7 +325,7 @@ class Groups {
   const Execution& execution_;
   Uniting& uniting_;
   std::vector<Index> euler_;  // twice, per shell
-  std::optional<InflatedShells> inflated_;
+  InflatedShells inflated_;
   std::vector<Index> part_of_;  // per shell: the first of those that it crosses deeply
 };
 
