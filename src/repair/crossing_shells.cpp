@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <optional>
@@ -13,8 +14,9 @@
 namespace mspskel::detail {
 namespace {
 
-constexpr double kDepth = 1e-3;  // of the smaller shell's extent
-constexpr double kSteps = 4;     // in such depths, behind a face: edges enter aslant
+// Of the smaller shell's extent, or of its width if that is less.
+constexpr double kDepth = 1e-3, kDepthInWidths = 0.01;
+constexpr double kSteps = 4;  // in such depths, behind a face: edges enter aslant
 
 bool boxes_meet(const Vector3& low, const Vector3& high, const Shell& shell) {
   return (low.array() <= shell.high.array()).all() && (shell.low.array() <= high.array()).all();
@@ -39,14 +41,52 @@ std::optional<std::array<Vector3, 2>> passage(const SurfaceSnapshot& surface, co
                                 p + std::min(1.0, share + reach) * (q - p)};
 }
 
+// Finds shells that lie in one place.
+class Copies {
+ public:
+  Copies(const SurfaceSnapshot& surface, const std::vector<Shell>& shells)
+      : surface_(surface), shells_(shells) {}
+
+  bool are_copies(Index c, Index d) {
+    const double most = kCopy * std::min(shells_[c].width, shells_[d].width);
+    const Shell &one = shells_[c], &other = shells_[d];
+    return (one.low - other.low).cwiseAbs().maxCoeff() <= most &&
+           (one.high - other.high).cwiseAbs().maxCoeff() <= most && is_beside(c, d, most) &&
+           is_beside(d, c, most);
+  }
+
+ private:
+  static constexpr double kCopy = 0.005;  // of the width
+
+  bool is_beside(Index c, Index d, double most) {
+    const BoundingVolumeHierarchy& walls = walls_.try_emplace(d, surface_, shells_[d].faces).first->second;
+    const auto near = [&](const Vector3& p) { return walls.closest(p, 1.01 * most).distance <= most; };
+    const auto corner = [&](Index f, Index k) -> const Vector3& {
+      return surface_.position[surface_.origin[3 * f + k]];
+    };
+    return std::all_of(shells_[c].vertices.begin(), shells_[c].vertices.end(),
+                       [&](Index v) { return near(surface_.position[v]); }) &&
+           std::all_of(shells_[c].faces.begin(), shells_[c].faces.end(),
+                       [&](Index f) { return near((corner(f, 0) + corner(f, 1) + corner(f, 2)) / 3); });
+  }
+
+  const SurfaceSnapshot& surface_;
+  const std::vector<Shell>& shells_;
+  std::map<Index, BoundingVolumeHierarchy> walls_;
+};
+
 class Crossings {
  public:
-  Crossings(const SurfaceSnapshot& surface, const std::vector<Shell>& shells)
-      : surface_(surface), shells_(shells), groups_(static_cast<Index>(shells.size())) {}
+  Crossings(const SurfaceSnapshot& surface, const std::vector<Shell>& shells, CrossingDepth depth)
+      : surface_(surface), shells_(shells), depth_(depth), groups_(static_cast<Index>(shells.size())) {}
 
   void run(const ProgressCallback& progress) {
     const std::vector<Index> near = faces_near_others(progress);
     if (near.empty()) return;
+    Copies copies(surface_, shells_);
+    for (Index c = 0; c < static_cast<Index>(shells_.size()); ++c)
+      for (Index d = 0; d < c; ++d)
+        if (groups_.root(c) != groups_.root(d) && copies.are_copies(d, c)) groups_.unite(c, d);
     near_.emplace(surface_, near, progress);
     for (std::size_t i = 0; i < near.size(); ++i) {
       if (i % 1024 == 0)
@@ -120,7 +160,11 @@ class Crossings {
   }
 
   double least_depth(Index c, Index d) const {
-    return kDepth * std::min(shells_[c].extent(), shells_[d].extent());
+    return std::min(least_depth(shells_[c]), least_depth(shells_[d]));
+  }
+  double least_depth(const Shell& shell) const {
+    const double deep = kDepth * shell.extent();
+    return depth_ == CrossingDepth::kDeep ? deep : std::min(deep, kDepthInWidths * shell.width);
   }
 
   bool reaches_into(Index c, Index d) {
@@ -130,6 +174,7 @@ class Crossings {
 
   const SurfaceSnapshot& surface_;
   const std::vector<Shell>& shells_;
+  CrossingDepth depth_;
   std::optional<BoundingVolumeHierarchy> near_;  // of the faces near other shells
   DisjointSets groups_;
   std::set<std::pair<Index, Index>> meetings_;  // pairs with an edge through a face, not deep
@@ -150,13 +195,32 @@ std::vector<Shell> shells_of(const SurfaceSnapshot& surface) {
   }
   for (Index f = 0; f < surface.face_count(); ++f)
     shells[surface.component[surface.origin[3 * f]]].faces.push_back(f);
+  for (Shell& shell : shells) {
+    double volume = 0, area = 0;
+    for (const Index f : shell.faces) {
+      const Vector3 normal = surface.face_normal_times_twice_area(f);
+      volume += normal.dot(surface.position[surface.origin[3 * f]] - shell.low) / 6;
+      area += normal.norm() / 2;
+    }
+    shell.width = area > 0 ? 4 * std::abs(volume) / area : 0;
+  }
   return shells;
+}
+
+std::vector<Index> without_copies(const SurfaceSnapshot& surface, const std::vector<Shell>& shells,
+                                  const std::vector<Index>& members) {
+  Copies copies(surface, shells);
+  std::vector<Index> distinct;
+  for (const Index m : members)
+    if (std::none_of(distinct.begin(), distinct.end(), [&](Index d) { return copies.are_copies(d, m); }))
+      distinct.push_back(m);
+  return distinct;
 }
 
 std::vector<std::vector<Index>> crossing_groups(const SurfaceSnapshot& surface,
                                                 const std::vector<Shell>& shells,
-                                                const ProgressCallback& progress) {
-  Crossings crossings(surface, shells);
+                                                const ProgressCallback& progress, CrossingDepth depth) {
+  Crossings crossings(surface, shells, depth);
   crossings.run(progress);
   return crossings.groups();
 }

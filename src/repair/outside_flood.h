@@ -68,6 +68,19 @@ class OutsideFlood {
     return static_cast<double>(
         std::count_if(reach_.value.begin(), reach_.value.end(), [&](float d) { return d > ball_; }));
   }
+  // Of what the last ball does not reach: what a larger ball fills that has place there, walls left out.
+  double room_cells(double radius) const {
+    const double ball = radius / grid_.side();
+    const auto reach = static_cast<Index>(ball);
+    std::vector<char> in_room(walls_.value.size(), 0);
+    for (Index n = 0; n < grid_.count(); ++n) {
+      if (reach_.value[n] <= ball_ || walls_.value[n] < wall_ + ball) continue;
+      each_near(n, reach, [&](Index near, double squared) {
+        if (squared <= ball * ball && reach_.value[near] > ball_) in_room[near] = 1;
+      });
+    }
+    return static_cast<double>(std::count(in_room.begin(), in_room.end(), 1));
+  }
   const DenseGrid& grid() const { return grid_; }
 
   // What TetrahedronCutter asks for.
@@ -75,6 +88,16 @@ class OutsideFlood {
   Vector3 place(Index node) const { return grid_.place(node); }
 
  private:
+  // The nodes of the cube about one that has as much room on each side, with their distances squared.
+  template <class Visit>
+  void each_near(Index node, Index reach, Visit visit) const {
+    for (Index z = -reach; z <= reach; ++z)
+      for (Index y = -reach; y <= reach; ++y)
+        for (Index x = -reach; x <= reach; ++x)
+          visit(node + x + y * grid_.stride(1) + z * grid_.stride(2),
+                static_cast<double>(x * x + y * y + z * z));
+  }
+
   void measure_faces() {
     const auto count = static_cast<std::size_t>(grid_.count());
     walls_.value.assign(count, std::numeric_limits<float>::infinity());

@@ -197,13 +197,15 @@ ShellGroup::ShellGroup(const SurfaceSnapshot& surface, const std::vector<Shell>&
       1);
 }
 
+bool ShellGroup::is_in(std::size_t i, const Vector3& p) const {
+  const Shell& shell = *members_[i];
+  return (p.array() >= shell.low.array()).all() && (p.array() <= shell.high.array()).all() &&
+         solids_[i]->inside(p);
+}
+
 bool ShellGroup::inside(const Vector3& p) const {
-  for (std::size_t i = 0; i < members_.size(); ++i) {
-    const Shell& shell = *members_[i];
-    if ((p.array() >= shell.low.array()).all() && (p.array() <= shell.high.array()).all() &&
-        solids_[i]->inside(p))
-      return true;
-  }
+  for (std::size_t i = 0; i < members_.size(); ++i)
+    if (is_in(i, p)) return true;
   return false;
 }
 

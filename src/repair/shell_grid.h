@@ -21,10 +21,12 @@ class ShellGroup {
   std::size_t size() const { return members_.size(); }
   const Shell& shell(std::size_t i) const { return *members_[i]; }
   const BoundingVolumeHierarchy& solid(std::size_t i) const { return *solids_[i]; }
-  const std::vector<Index>& faces() const { return faces_; }  // of all
-  const Vector3& low() const { return low_; }                 // the box of all
+  const BoundingVolumeHierarchy& walls() const { return *walls_; }  // of all
+  const std::vector<Index>& faces() const { return faces_; }        // of all
+  const Vector3& low() const { return low_; }                       // the box of all
   const Vector3& high() const { return high_; }
 
+  bool is_in(std::size_t i, const Vector3& p) const;  // in the solid of one
   bool inside(const Vector3& p) const;
   // Distance to the nearest face, or the bound.
   double distance(const Vector3& p, double bound) const;

@@ -6,7 +6,7 @@
 
 namespace mspskel::detail {
 
-WholePieces without_crumbs(const PolygonSoup& soup) {
+WholePieces without_crumbs(const PolygonSoup& soup, double pocket) {
   constexpr double kCrumb = 0.025;  // of the largest extent
   const auto points = static_cast<Index>(soup.points.size());
   DisjointSets sets(points);
@@ -23,14 +23,22 @@ WholePieces without_crumbs(const PolygonSoup& soup) {
   }
   double largest = 0;
   for (Index v = 0; v < points; ++v) largest = std::max(largest, (high[v] - low[v]).norm());
-  WholePieces kept;
-  std::vector<Index> vertex(soup.points.size(), kNone);
   for (std::size_t i = 0; i < soup.corners.size(); i += 3) {
     const Index piece = sets.root(soup.corners[i]);
     --euler[piece];
     const auto at = [&](std::size_t k) { return Vector3(soup.points[soup.corners[k]] - soup.points[piece]); };
     volume[piece] += at(i).dot(at(i + 1).cross(at(i + 2)));
-    if ((high[piece] - low[piece]).norm() < kCrumb * largest) continue;
+  }
+  double solid = 0;
+  for (const double v : volume) solid += std::max(0.0, v);
+  const auto is_crumb = [&](Index piece) {
+    return (high[piece] - low[piece]).norm() < kCrumb * largest ||
+           (volume[piece] < 0 && -volume[piece] < pocket * solid);
+  };
+  WholePieces kept;
+  std::vector<Index> vertex(soup.points.size(), kNone);
+  for (std::size_t i = 0; i < soup.corners.size(); i += 3) {
+    if (is_crumb(sets.root(soup.corners[i]))) continue;
     for (std::size_t k = i; k < i + 3; ++k) {
       Index& v = vertex[soup.corners[k]];
       if (v == kNone) {
@@ -48,7 +56,7 @@ WholePieces without_crumbs(const PolygonSoup& soup) {
       continue;
     }
     kept.genus += (4 - euler[v]) / 4;
-    kept.solids += volume[v] > 0;
+    ++(volume[v] > 0 ? kept.solids : kept.cavities);
   }
   return kept;
 }

@@ -24,6 +24,7 @@ constexpr double kWall = 0.87;
 // its walls are as thick there as on the finest.
 constexpr double kLeastGap = 0.0125, kLargestGap = 0.1;  // powers of two apart
 constexpr double kFinestToldCell = 0.00625, kFinestCell = 0.004, kCoarsestCell = 0.01;
+constexpr double kRoom = 4;  // in gaps
 constexpr double kTellingCell = 2 * kFinestToldCell;
 
 struct Scale {
@@ -50,6 +51,11 @@ class Telling {
   double enclosed(double gap) {
     flood_.run(radius(gap));
     return flood_.unreached_cells() - flood_.wall_cells() - filled_;
+  }
+  // The same of what is at least so wide.
+  double rooms(double gap, double width) {
+    flood_.run(radius(gap));
+    return flood_.room_cells(width / 2 * extent_) - filled_;
   }
   double filled() const { return filled_; }
   double walls() const { return flood_.wall_cells(); }
@@ -81,11 +87,12 @@ Scale told_scale(const SoupWalls& walls) {
   return chosen;
 }
 
-// Shells are walls where the least gap encloses more than they fill, beside what they fill.
+// Shells are walls where the least gap shuts in rooms of more than they fill, beside what they fill. The
+// nooks between shells that are hardly wider than the gap are none.
 Scale scale_of_shells(const SoupWalls& walls, double filled) {
-  Telling telling(walls, filled, kLeastGap);
+  Telling telling(walls, filled, kRoom * kLeastGap);
   Scale scale = scale_for(kLeastGap, kFinestToldCell);
-  scale.encloses = telling.enclosed(kLeastGap) > telling.filled();
+  scale.encloses = telling.rooms(kLeastGap, kRoom * kLeastGap) > telling.filled();
   return scale;
 }
 

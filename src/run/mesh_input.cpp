@@ -62,6 +62,12 @@ double filled_by_shells(const SurfaceSnapshot& surface) {
   return sum * std::pow(surface.frame.scale, 3);
 }
 
+std::string way_of(const UnitedShells& united) {
+  if (united.cell == 0) return "cut along the curves where they cross";
+  return "sampled at cells of " + length_text(united.cell) +
+         (united.resolved ? "" : ", which are too coarse for the thinnest of them");
+}
+
 void unite(MeshInput& input, const SurfaceSnapshot& surface, const std::vector<std::vector<Index>>& groups,
            const Execution& execution) {
   input.united = unite_shells(surface, groups, {}, execution);
@@ -85,9 +91,9 @@ void unite(MeshInput& input, const SurfaceSnapshot& surface, const std::vector<s
   }
   input.built = build_mesh_with_report(united.soup);
   united.soup = {};
-  warnings.push_back(counted(united.shells, "shell") + " that cross each other are united to " +
-                     counted(united.solids, "solid") + ", sampled at cells of " + length_text(united.cell) +
-                     " (--shells each keeps them apart)");
+  warnings.push_back(
+      counted(united.shells, "shell") + " that cross each other or lie in one place are united to " +
+      counted(united.solids, "solid") + ", " + way_of(united) + " (--shells each keeps them apart)");
   input.built.warnings.insert(input.built.warnings.begin(), warnings.begin(), warnings.end());
 }
 

@@ -1,6 +1,8 @@
 // Shells that cross each other become one solid; all others stay as they are.
 #include "mspskel/repair/unite_shells.h"
 
+#include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 
 #include "mspskel/base/error.h"
@@ -48,12 +50,26 @@ TEST_CASE("bars that cross are one solid with the volume of their union, and the
   CHECK(report.self_intersections == 0);
   CHECK(report.signed_volume == Approx(6 + 3.84 - 0.64).epsilon(0.02));
   for (std::size_t v = 0; v < bars.points.size(); ++v)
-    CHECK((united->soup.points[united->vertex_of[v]] - bars.points[v]).norm() < 2 * united->cell);
+    CHECK((united->soup.points[united->vertex_of[v]] - bars.points[v]).norm() < 1e-4);
   const SurfaceSnapshot surface = make_snapshot(build_mesh(united->soup));
   Index short_edges = 0;
   for (Index h = 0; h < surface.halfedge_count(); ++h)
     short_edges += surface.edge_length(h) * surface.frame.scale < 0.4 * united->cell;
   CHECK(short_edges < surface.halfedge_count() / 20);
+}
+
+TEST_CASE("bars are sampled on a grid where one is asked for") {
+  const PolygonSoup bars = together({kAlongX, kAlongY});
+  const SurfaceSnapshot surface = make_snapshot(build_mesh(bars));
+  UniteOptions options;
+  options.cell = 0.01;
+  const UnitedShells united = unite_shells(surface, crossing_shells(surface), options);
+  CHECK(united.cell > 0);
+  CHECK(united.resolved);
+  const MeshReport report = report_of(united.soup);
+  CHECK(report.components.size() == 1);
+  CHECK(report.genus == 0);
+  CHECK(report.signed_volume == Approx(6 + 3.84 - 0.64).epsilon(0.02));
 }
 
 TEST_CASE("a handle that is a shell of its own gives the pot a handle") {
@@ -96,6 +112,173 @@ TEST_CASE("a part that is there twice is told, and one that is moved is none") {
   CHECK_FALSE(repeated(together({kAlongX, kAlongY})));
   CHECK_FALSE(repeated(together({kAlongX, shifted(kAlongX, {0, 1e-3, 0})})));
   CHECK_FALSE(repeated(kAlongX));
+}
+
+TEST_CASE(
+    "a copy that lies a small part of the width aside is one with the part, whatever its side and size") {
+  const PolygonSoup part = to_soup(torus(1, 0.3, 32, 16));
+  const PolygonSoup aside = shifted(part, {1e-6, 2e-6, 1e-6});
+  PolygonSoup larger = part, turned = part;
+  for (Vector3& p : larger.points) p *= 1.0001;
+  for (Vector3& p : turned.points) p *= 0.9999;
+  for (std::size_t i = 0; i < turned.corners.size(); i += 3)
+    std::swap(turned.corners[i + 1], turned.corners[i + 2]);
+  for (const PolygonSoup& copy : {aside, larger, turned}) {
+    const auto united = unite(together({part, copy}));
+    REQUIRE(united);
+    CHECK(united->shells == 2);
+    CHECK(united->solids == 1);
+    CHECK(united->soup.polygon_count() == part.polygon_count());
+    CHECK(report_of(united->soup).genus == 1);
+  }
+  CHECK_FALSE(unite(together({kAlongX, box({-2.8, -0.45, -0.45}, {2.8, 0.45, 0.45})})));
+}
+
+TEST_CASE("a lattice of thin bars has the handles that its bars make, with faces in one plane") {
+  constexpr int kBars = 9;
+  constexpr double kHalf = 0.02;
+  std::vector<PolygonSoup> bars;
+  for (int i = 0; i < kBars; ++i) {
+    bars.push_back(box({-0.5, i - kHalf, -kHalf}, {kBars - 0.5, i + kHalf, kHalf}));
+    bars.push_back(box({i - kHalf, -0.5, -kHalf}, {i + kHalf, kBars - 0.5, kHalf}));
+  }
+  const auto united = unite(together(bars));
+  REQUIRE(united);
+  CHECK(united->solids == 1);
+  CHECK(united->cell == 0);
+  const MeshReport report = report_of(united->soup);
+  CHECK(report.components.size() == 1);
+  CHECK(report.genus == (kBars - 1) * (kBars - 1));
+  CHECK(report.signed_volume ==
+        Approx(4 * kHalf * kHalf * 2 * kBars * kBars - 8 * kHalf * kHalf * kHalf * kBars * kBars)
+            .epsilon(1e-3));
+}
+
+TEST_CASE("parts in contact, or nearly, that pins hold together are one solid without handles") {
+  const PolygonSoup pins =
+      together({box({-1.6, -0.7, -0.83}, {-1.2, -0.3, 0.71}), box({1.1, 0.2, -0.77}, {1.4, 0.6, 0.79})});
+  const PolygonSoup plate = box({-2, -1, -0.5}, {2, 1, 0});
+  for (const double gap : {-1e-6, -1e-7, 0.0, 1e-7, 1e-5, 1e-3}) {
+    const auto stands = unite(together({plate, box({-1.9, -0.9, gap}, {1.9, 0.9, 0.5 + gap}), pins}));
+    REQUIRE(stands);
+    CHECK(stands->shells == 4);
+    CHECK(stands->solids == 1);
+    CHECK(stands->cell == 0);
+    const MeshReport report = report_of(stands->soup);
+    CHECK(report.components.size() == 1);
+    CHECK(report.genus == 0);
+    CHECK(report.signed_volume ==
+          Approx(8 * 0.5 + 3.8 * 1.8 * 0.5 + 0.16 * 0.54 + 0.12 * 0.56).epsilon(0.03));
+  }
+}
+
+TEST_CASE("boxes with faces in one plane are one solid without handles") {
+  for (const double step : {0.0, 1e-7, -1e-7, 1e-5}) {
+    const auto united =
+        unite(together({box({-2, -1, -0.5}, {0.3, 1, 0.5}), box({-0.2, -1 + step, -0.5}, {2, 1 + step, 0.5}),
+                        box({-1, -0.5, -0.5 + step}, {1, 0.5, 0.5 + step})}));
+    REQUIRE(united);
+    CHECK(united->solids == 1);
+    CHECK(united->cell == 0);
+    const MeshReport report = report_of(united->soup);
+    CHECK(report.components.size() == 1);
+    CHECK(report.genus == 0);
+    CHECK(report.signed_volume == Approx(8).epsilon(0.01));
+  }
+}
+
+TEST_CASE("a gap between parts that is wider than they grow is an opening") {
+  // Two plates, and two posts through both.
+  const auto united =
+      unite(together({box({-2, -1, 0}, {2, 1, 0.4}), box({-2, -1, 0.5}, {2, 1, 0.9}),
+                      box({-1.5, -0.2, -0.1}, {-1.1, 0.2, 1}), box({1, -0.2, -0.1}, {1.4, 0.2, 1})}));
+  REQUIRE(united);
+  CHECK(united->cell == 0);
+  CHECK(report_of(united->soup).genus == 1);
+}
+
+TEST_CASE("a small hollow that parts leave between them is filled, and a room is not") {
+  for (const double half : {0.15, 0.6}) {
+    std::vector<PolygonSoup> parts{box({-1, -1, -0.6}, {1, 1, -0.2}), box({-1, -1, 0.2}, {1, 1, 0.6})};
+    for (const double side : {-1.0, 1.0}) {
+      parts.push_back(box(Vector3(side, 0, 0) - Vector3(1 - half, 0.9, 0.3),
+                          Vector3(side, 0, 0) + Vector3(1 - half, 0.9, 0.3)));
+      parts.push_back(box(Vector3(0, side, 0) - Vector3(0.8, 1 - half, 0.25),
+                          Vector3(0, side, 0) + Vector3(0.8, 1 - half, 0.25)));
+    }
+    const auto united = unite(together(parts));
+    REQUIRE(united);
+    CHECK(united->solids == 1);
+    const MeshReport report = report_of(united->soup);
+    CHECK(report.components.size() == (half < 0.5 ? 1 : 2));
+    CHECK(report.genus == 0);
+  }
+}
+
+TEST_CASE("no two vertices of a union lie in one place, though a shell's tips meet in one") {
+  // A horseshoe whose pointed ends touch, and a bar through it.
+  const PolygonSoup shoe = to_soup(stacked_rings(
+      16, 40,
+      [](Index ring, Index segment) {
+        const double along = 2 * kPi * (ring + 1) / 41, angle = -2 * kPi * segment / 16;
+        const double radius = 0.3 * std::min(1.0, std::min(along, 2 * kPi - along));
+        const double far = 2 + radius * std::cos(angle);
+        return Vector3(far * std::cos(along), far * std::sin(along), radius * std::sin(angle));
+      },
+      Vector3(2, 0, 0), Vector3(2, 0, 0)));
+  const auto united = unite(together({shoe, box({-4, -0.1, -0.1}, {-1, 0.1, 0.1})}));
+  REQUIRE(united);
+  CHECK(united->shells == 2);
+  std::vector<std::array<double, 3>> places;
+  for (const Vector3& p : united->soup.points) places.push_back({p.x(), p.y(), p.z()});
+  std::sort(places.begin(), places.end());
+  CHECK(std::adjacent_find(places.begin(), places.end()) == places.end());
+}
+
+TEST_CASE("shells that cross by less than a grid tells stay as they are where one is asked for") {
+  // A hundredth as wide as long, and a fortieth of the width in each other.
+  const PolygonSoup bars =
+      together({box({-4, -0.04, -0.04}, {4, 0.04, 0.04}), box({-0.03, -4, 0.038}, {0.03, 4, 0.1})});
+  const SurfaceSnapshot surface = make_snapshot(build_mesh(bars));
+  const std::vector<std::vector<Index>> groups = crossing_shells(surface);
+  REQUIRE(groups.size() == 1);
+  CHECK(unite_shells(surface, groups, {}).solids == 1);
+  UniteOptions options;
+  options.cell = 0.01;
+  const UnitedShells apart = unite_shells(surface, groups, options);
+  CHECK(apart.shells == 0);
+  CHECK(apart.left_apart == 0);
+  CHECK(apart.soup.points.empty());
+}
+
+TEST_CASE("a tree of twigs far thinner than its extent is one piece without a loop") {
+  // A trunk of closed tubes end to end, askew, with twigs; each a hundredth as wide as long.
+  const auto tube = [](const Vector3& from, const Vector3& to) {
+    const Vector3 along = (to - from).normalized(), u = along.unitOrthogonal(), w = along.cross(u);
+    return to_soup(stacked_rings(
+        8, 4,
+        [&](Index ring, Index segment) {
+          const double angle = 2 * kPi * segment / 8.0;
+          return Vector3(from + ring / 3.0 * (to - from) +
+                         0.01 * (std::cos(angle) * u + std::sin(angle) * w));
+        },
+        from, to));
+  };
+  std::vector<PolygonSoup> tubes;
+  Vector3 at = Vector3::Zero();
+  for (int i = 0; i < 12; ++i) {
+    const Vector3 next = at + Vector3(1, 0.3 * std::sin(2.0 * i), 0.2 * std::cos(3.0 * i));
+    tubes.push_back(tube(at, next));
+    tubes.push_back(tube(next, next + Vector3(0.2, i % 2 == 0 ? 1 : -1, 0.1)));
+    at = next;
+  }
+  const auto united = unite(together(tubes));
+  REQUIRE(united);
+  CHECK(united->solids == 1);
+  CHECK(united->cell == 0);
+  const MeshReport report = report_of(united->soup);
+  CHECK(report.components.size() == 1);
+  CHECK(report.genus == 0);
 }
 
 TEST_CASE("walls thinner than the grid's cells do not become sieves") {

@@ -187,6 +187,20 @@ TEST_CASE("Shells are walls where they shut in more than they fill") {
   }
 }
 
+TEST_CASE("Nooks between thin shells are no rooms") {
+  // A comb of thin bars, hardly farther apart than the gap.
+  Shells comb;
+  for (int i = 0; i < 30; ++i)
+    for (const double z : {0.0, 0.09}) {
+      comb.add({0.09 * i, -0.1, z - 0.004}, {0.09 * i + 0.008, 2.7, z + 0.004});
+      comb.add({-0.1, 0.09 * i, z - 0.004}, {2.7, 0.09 * i + 0.008, z + 0.004});
+    }
+  WrapOptions options;
+  options.thicken_walls = false;
+  options.filled = comb.filled;
+  CHECK_FALSE(wrap_soup(comb.soup, options).encloses);
+}
+
 TEST_CASE("Plane walls of a wrap are cut to no slivers, which would keep a surface from being coarsened") {
   // A cross of plates along the grid's axes, and one aslant to them.
   const PolygonSoup plates =
