@@ -30,7 +30,7 @@ struct Segment {
   std::vector<Index> between{};
 };
 
-struct Piece {
+struct CutPiece {
   std::array<Index, 3> corner;
   Index face;
   std::array<char, 3> cut;  // sides along which another shell passes
@@ -361,7 +361,7 @@ class CutUnion {
     return static_cast<std::size_t>(std::unique(pairs.begin(), pairs.end()) - pairs.begin());
   }
 
-  bool is_outside(const Piece& piece) const {
+  bool is_outside(const CutPiece& piece) const {
     const Index own = member_of_face(piece.face);
     const Vector3 p = (point_[piece.corner[0]] + point_[piece.corner[1]] + point_[piece.corner[2]]) / 3;
     for (std::size_t m = 0; m < group_.size(); ++m)
@@ -428,7 +428,7 @@ class CutUnion {
   std::vector<Segment> segments_;                          // ascending by faces
   std::unordered_map<Index, std::vector<Index>> on_face_;  // segments
   std::vector<Index> cut_faces_;
-  std::vector<Piece> pieces_;
+  std::vector<CutPiece> pieces_;
 };
 
 // Moves a vertex so that each of its faces moves outward by one, or as near to it as that goes.

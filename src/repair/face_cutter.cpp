@@ -6,8 +6,8 @@
 namespace mspskel::detail {
 namespace {
 
-constexpr int next(int k) { return k == 2 ? 0 : k + 1; }
-constexpr int previous(int k) { return k == 0 ? 2 : k - 1; }
+constexpr int next_side(int k) { return k == 2 ? 0 : k + 1; }
+constexpr int previous_side(int k) { return k == 0 ? 2 : k - 1; }
 
 int place_of(const std::array<Index, 3>& list, Index wanted) {
   return list[0] == wanted ? 0 : list[1] == wanted ? 1 : list[2] == wanted ? 2 : -1;
@@ -47,7 +47,7 @@ void FaceCutter::each_part_at(Index v, Visit visit) const {
   do {  // against the clock
     const int k = place_of(parts_[part].corner, v);
     if (visit(part, k)) return;
-    part = parts_[part].beside[previous(k)];
+    part = parts_[part].beside[previous_side(k)];
   } while (part != kNone && part != first);
   if (part == first) return;
   part = first;
@@ -61,10 +61,10 @@ void FaceCutter::each_part_at(Index v, Visit visit) const {
 std::pair<Index, int> FaceCutter::find_side(Index from, Index to) const {
   std::pair<Index, int> found{kNone, 0};
   each_part_at(from, [&](Index part, int k) {
-    if (parts_[part].corner[next(k)] == to)
+    if (parts_[part].corner[next_side(k)] == to)
       found = {part, k};
-    else if (parts_[part].corner[previous(k)] == to)
-      found = {part, previous(k)};
+    else if (parts_[part].corner[previous_side(k)] == to)
+      found = {part, previous_side(k)};
     return found.first != kNone;
   });
   return found;
@@ -72,7 +72,7 @@ std::pair<Index, int> FaceCutter::find_side(Index from, Index to) const {
 
 void FaceCutter::split_side(Index part, int side, Index p) {
   const Part old = parts_[part];
-  const Index a = old.corner[side], b = old.corner[next(side)], c = old.corner[previous(side)];
+  const Index a = old.corner[side], b = old.corner[next_side(side)], c = old.corner[previous_side(side)];
   const Index other = old.beside[side];
   const char kept = old.kept[side];
   const auto added = static_cast<Index>(parts_.size());
@@ -81,23 +81,25 @@ void FaceCutter::split_side(Index part, int side, Index p) {
   if (other != kNone) {
     const Part across = parts_[other];
     const int k = place_of(across.beside, part);
-    const Index d = across.corner[previous(k)];
+    const Index d = across.corner[previous_side(k)];
     far_added = static_cast<Index>(parts_.size());
     parts_.emplace_back();
     // across runs b, a, d.
-    set(other, {p, a, d}, {part, across.beside[next(k)], far_added}, {kept, across.kept[next(k)], 0});
-    set(far_added, {b, p, d}, {added, other, across.beside[previous(k)]},
-        {kept, 0, across.kept[previous(k)]});
-    point_back(across.beside[previous(k)], other, far_added);
+    set(other, {p, a, d}, {part, across.beside[next_side(k)], far_added},
+        {kept, across.kept[next_side(k)], 0});
+    set(far_added, {b, p, d}, {added, other, across.beside[previous_side(k)]},
+        {kept, 0, across.kept[previous_side(k)]});
+    point_back(across.beside[previous_side(k)], other, far_added);
   }
-  set(part, {a, p, c}, {other, added, old.beside[previous(side)]}, {kept, 0, old.kept[previous(side)]});
-  set(added, {p, b, c}, {far_added, old.beside[next(side)], part}, {kept, old.kept[next(side)], 0});
-  point_back(old.beside[next(side)], part, added);
+  set(part, {a, p, c}, {other, added, old.beside[previous_side(side)]},
+      {kept, 0, old.kept[previous_side(side)]});
+  set(added, {p, b, c}, {far_added, old.beside[next_side(side)], part}, {kept, old.kept[next_side(side)], 0});
+  point_back(old.beside[next_side(side)], part, added);
 }
 
 void FaceCutter::add_on_side(int side, const Point& p) {
-  const auto [part, k] = find_side(last_[side], next(side));
-  const Index v = add(p), apex = parts_[part].corner[previous(k)];
+  const auto [part, k] = find_side(last_[side], next_side(side));
+  const Index v = add(p), apex = parts_[part].corner[previous_side(k)];
   split_side(part, k, v);
   last_[side] = v;
   improve({{v, apex}});
@@ -111,7 +113,7 @@ Index FaceCutter::part_with(const Point& p) const {
     int out = -1;
     double most = 0;
     for (int k = 0; k < 3; ++k) {
-      const double side = turn(point_[at.corner[k]], point_[at.corner[next(k)]], p);
+      const double side = turn(point_[at.corner[k]], point_[at.corner[next_side(k)]], p);
       if (side < most) {
         most = side;
         out = k;
@@ -125,7 +127,7 @@ Index FaceCutter::part_with(const Point& p) const {
   for (Index i = 0; i < static_cast<Index>(parts_.size()); ++i) {
     double least = std::numeric_limits<double>::infinity();
     for (int k = 0; k < 3; ++k)
-      least = std::min(least, turn(point_[parts_[i].corner[k]], point_[parts_[i].corner[next(k)]], p));
+      least = std::min(least, turn(point_[parts_[i].corner[k]], point_[parts_[i].corner[next_side(k)]], p));
     if (least <= best) continue;
     best = least;
     part = i;
@@ -149,8 +151,8 @@ void FaceCutter::add_within(const Point& p) {
 
 bool FaceCutter::can_flip(Index part, int side) const {
   const Part &own = parts_[part], &other = parts_[own.beside[side]];
-  const Index a = own.corner[side], b = own.corner[next(side)], c = own.corner[previous(side)];
-  const Index d = other.corner[previous(place_of(other.beside, part))];
+  const Index a = own.corner[side], b = own.corner[next_side(side)], c = own.corner[previous_side(side)];
+  const Index d = other.corner[previous_side(place_of(other.beside, part))];
   return turn(c, a, d) > 0 && turn(d, b, c) > 0;
 }
 
@@ -158,20 +160,20 @@ void FaceCutter::flip(Index part, int side) {
   const Index other = parts_[part].beside[side];
   const Part own = parts_[part], across = parts_[other];
   const int k = place_of(across.beside, part);
-  const Index a = own.corner[side], b = own.corner[next(side)], c = own.corner[previous(side)];
-  const Index d = across.corner[previous(k)];
-  set(part, {c, a, d}, {own.beside[previous(side)], across.beside[next(k)], other},
-      {own.kept[previous(side)], across.kept[next(k)], 0});
-  set(other, {d, b, c}, {across.beside[previous(k)], own.beside[next(side)], part},
-      {across.kept[previous(k)], own.kept[next(side)], 0});
-  point_back(across.beside[next(k)], other, part);
-  point_back(own.beside[next(side)], part, other);
+  const Index a = own.corner[side], b = own.corner[next_side(side)], c = own.corner[previous_side(side)];
+  const Index d = across.corner[previous_side(k)];
+  set(part, {c, a, d}, {own.beside[previous_side(side)], across.beside[next_side(k)], other},
+      {own.kept[previous_side(side)], across.kept[next_side(k)], 0});
+  set(other, {d, b, c}, {across.beside[previous_side(k)], own.beside[next_side(side)], part},
+      {across.kept[previous_side(k)], own.kept[next_side(side)], 0});
+  point_back(across.beside[next_side(k)], other, part);
+  point_back(own.beside[next_side(side)], part, other);
 }
 
 // Whether the circle through the part has the corner across the side in it.
 bool FaceCutter::is_thin(Index part, int side) const {
   const Part &own = parts_[part], &other = parts_[own.beside[side]];
-  const Point& d = point_[other.corner[previous(place_of(other.beside, part))]];
+  const Point& d = point_[other.corner[previous_side(place_of(other.beside, part))]];
   std::array<std::array<double, 3>, 3> row{};
   for (int i = 0; i < 3; ++i) {
     const double x = point_[own.corner[i]][0] - d[0], y = point_[own.corner[i]][1] - d[1];
@@ -194,8 +196,8 @@ void FaceCutter::improve(std::vector<std::pair<Index, Index>> sides) {
     for (const Part* p : {&own, &other})
       for (int i = 0; i < 3; ++i)
         if (place_of(p == &own ? other.corner : own.corner, p->corner[i]) == -1 ||
-            place_of(p == &own ? other.corner : own.corner, p->corner[next(i)]) == -1)
-          sides.emplace_back(p->corner[i], p->corner[next(i)]);
+            place_of(p == &own ? other.corner : own.corner, p->corner[next_side(i)]) == -1)
+          sides.emplace_back(p->corner[i], p->corner[next_side(i)]);
   }
 }
 
@@ -214,25 +216,25 @@ bool FaceCutter::keep(Index from, Index to) {
   Index part = kNone;
   int side = 0;
   each_part_at(from, [&](Index at, int k) {
-    const Index right = parts_[at].corner[next(k)], left = parts_[at].corner[previous(k)];
+    const Index right = parts_[at].corner[next_side(k)], left = parts_[at].corner[previous_side(k)];
     if (!(turn(from, to, right) < 0 && turn(from, to, left) > 0)) return false;
     part = at;
-    side = next(k);
+    side = next_side(k);
     return true;
   });
   if (part == kNone) return false;
   while (true) {
     const Part& at = parts_[part];
     if (at.kept[side] || at.beside[side] == kNone || crossed.size() > parts_.size()) return false;
-    crossed.emplace_back(at.corner[side], at.corner[next(side)]);
+    crossed.emplace_back(at.corner[side], at.corner[next_side(side)]);
     const Index other = at.beside[side];
     const int k = place_of(parts_[other].beside, part);
-    const Index apex = parts_[other].corner[previous(k)];
+    const Index apex = parts_[other].corner[previous_side(k)];
     if (apex == to) break;
     const double turned = turn(from, to, apex);
     if (turned == 0) return false;
     part = other;
-    side = turned > 0 ? next(k) : previous(k);  // other runs left, right, apex
+    side = turned > 0 ? next_side(k) : previous_side(k);  // other runs left, right, apex
   }
   std::vector<std::pair<Index, Index>> made;
   std::size_t tries = 0;
