@@ -34,7 +34,7 @@ class Presets(ProgramTest):
     def test_given_options_come_first_wherever_they_stand(self):
         for given in [["--smallest", "0.02", "--for", "neurons"], ["--for", "neurons", "--smallest=0.02"]]:
             options, _ = self.settings(*given)
-            self.assertEqual((options["smallest"], options["detail"]), (0.02, 6))
+            self.assertEqual((options["smallest"], options["detail"]), (0.02, 2))
         # A default that is given is given, too.
         for given in [["--coarsen", "--for", "vessels"], ["--for", "vessels", "--coarsen"]]:
             self.assertIs(self.settings(*given)[0]["coarsen"], True)

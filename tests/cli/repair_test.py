@@ -148,7 +148,7 @@ class Repair(ProgramTest):
     def test_shells_that_cross_are_one_solid_unless_each_is_wanted(self):
         self.two_crossing_capsules()
         message = self.run_program("two.off", "a.skel", "--report", "a.json").stderr.decode()
-        self.assertIn("2 shells that cross each other are united to 1 solid", message)
+        self.assertIn("2 shells that cross each other or lie in one place are united to 1 solid, cut along", message)
         report = json.loads((self.folder / "a.json").read_text())
         self.assertEqual((report["skeleton"]["components"], report["repair"]["united_shells"]), (1, 2))
         self.assertEqual(self.run_program("check", "two.off", "a.skel", "-q").returncode, DONE)
