@@ -32,6 +32,15 @@ std::optional<UnitedShells> unite(const PolygonSoup& soup, int threads = 1) {
 
 MeshReport report_of(const PolygonSoup& soup) { return report_mesh(make_snapshot(build_mesh(soup)), {1}); }
 
+// The share of the edges that are shorter than `length`.
+double share_below(const PolygonSoup& soup, double length) {
+  const SurfaceSnapshot surface = make_snapshot(build_mesh(soup));
+  Index count = 0;
+  for (Index h = 0; h < surface.halfedge_count(); ++h)
+    count += surface.edge_length(h) * surface.frame.scale < length;
+  return static_cast<double>(count) / static_cast<double>(surface.halfedge_count());
+}
+
 const PolygonSoup kAlongX = box({-3, -0.5, -0.5}, {3, 0.5, 0.5}),
                   kAlongY = box({-0.4, -3, -0.4}, {0.4, 3, 0.4});
 
@@ -51,11 +60,8 @@ TEST_CASE("bars that cross are one solid with the volume of their union, and the
   CHECK(report.signed_volume == Approx(6 + 3.84 - 0.64).epsilon(0.02));
   for (std::size_t v = 0; v < bars.points.size(); ++v)
     CHECK((united->soup.points[united->vertex_of[v]] - bars.points[v]).norm() < 1e-4);
-  const SurfaceSnapshot surface = make_snapshot(build_mesh(united->soup));
-  Index short_edges = 0;
-  for (Index h = 0; h < surface.halfedge_count(); ++h)
-    short_edges += surface.edge_length(h) * surface.frame.scale < 0.4 * united->cell;
-  CHECK(short_edges < surface.halfedge_count() / 20);
+  CHECK(united->cell == 0);
+  CHECK(share_below(united->soup, 0.1 * 0.8) < 0.05);  // of the thinner bar's width
 }
 
 TEST_CASE("bars are sampled on a grid where one is asked for") {
@@ -70,6 +76,7 @@ TEST_CASE("bars are sampled on a grid where one is asked for") {
   CHECK(report.components.size() == 1);
   CHECK(report.genus == 0);
   CHECK(report.signed_volume == Approx(6 + 3.84 - 0.64).epsilon(0.02));
+  CHECK(share_below(united.soup, 0.4 * united.cell) < 0.05);
 }
 
 TEST_CASE("a handle that is a shell of its own gives the pot a handle") {
