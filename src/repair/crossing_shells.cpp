@@ -202,6 +202,7 @@ std::vector<Shell> shells_of(const SurfaceSnapshot& surface) {
       volume += normal.dot(surface.position[surface.origin[3 * f]] - shell.low) / 6;
       area += normal.norm() / 2;
     }
+    shell.inside_out = volume < 0;
     shell.width = area > 0 ? 4 * std::abs(volume) / area : 0;
   }
   return shells;

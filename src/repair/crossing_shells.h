@@ -12,6 +12,7 @@ struct Shell {
   std::vector<Index> faces, vertices;
   Vector3 low = Vector3::Zero(), high = Vector3::Zero();  // its box
   double width = 0;                                       // four times volume over area: a tube's diameter
+  bool inside_out = false;  // its faces are counter-clockwise as seen from inside
   double extent() const { return (high - low).norm(); }
 };
 

@@ -1,6 +1,5 @@
 #include "cut_union.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +11,7 @@
 
 #include "disjoint_sets.h"
 #include "face_cutter.h"
+#include "face_set.h"
 
 namespace mspskel::detail {
 namespace {
@@ -51,7 +51,6 @@ class CutUnion {
         point_[v] += shift;
       }
     }
-    first_point_ = static_cast<Index>(point_.size());
   }
 
   std::optional<CutShells> run(const Execution& execution) {
@@ -212,17 +211,16 @@ class CutUnion {
                        {std::min(a[0], b[0]), std::min(a[1], b[1])},
                        {std::max(a[0], b[0]), std::max(a[1], b[1])}});
     }
-    const auto turn = [](const FaceCutter::Point& a, const FaceCutter::Point& b, const FaceCutter::Point& c) {
-      return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-    };
     for (std::size_t i = 0; i < lines.size(); ++i)
       for (std::size_t j = i + 1; j < lines.size(); ++j) {
         const Line &s = lines[i], &t = lines[j];
         if (s.high[0] < t.low[0] || t.high[0] < s.low[0] || s.high[1] < t.low[1] || t.high[1] < s.low[1])
           continue;
         if (member_of_face(s.other) == member_of_face(t.other)) continue;
-        const double ta = turn(s.a, s.b, t.a), tb = turn(s.a, s.b, t.b);
-        if ((ta > 0) == (tb > 0) || (turn(t.a, t.b, s.a) > 0) == (turn(t.a, t.b, s.b) > 0)) continue;
+        const double ta = FaceCutter::turn(s.a, s.b, t.a), tb = FaceCutter::turn(s.a, s.b, t.b);
+        if ((ta > 0) == (tb > 0) ||
+            (FaceCutter::turn(t.a, t.b, s.a) > 0) == (FaceCutter::turn(t.a, t.b, s.b) > 0))
+          continue;
         const Index third = segment_between(s.other, t.other);
         if (third == kNone) return false;
         const Vector3 &from = point_[segments_[t.segment].end[0]], &to = point_[segments_[t.segment].end[1]];
@@ -330,11 +328,11 @@ class CutUnion {
     CutShells cut;
     PolygonSoup& soup = cut.soup;
     std::vector<Index> vertex(point_.size(), kNone);
-    const std::vector<char> turned = inward_shells();
     for (Index i = 0; i < count; ++i) {
       if (!outside[patches.root(i)]) continue;
       std::array<Index, 3> c = pieces_[i].corner;
-      if (turned[member_of_face(pieces_[i].face)]) std::swap(c[1], c[2]);
+      const auto shell = static_cast<std::size_t>(member_of_face(pieces_[i].face));
+      if (group_.shell(shell).inside_out) std::swap(c[1], c[2]);
       for (Index& v : c) {
         if (vertex[v] == kNone) {
           vertex[v] = static_cast<Index>(soup.points.size());
@@ -343,7 +341,7 @@ class CutUnion {
         v = vertex[v];
       }
       soup.add_triangle(c[0], c[1], c[2]);
-      cut.shell.push_back(static_cast<std::size_t>(member_of_face(pieces_[i].face)));
+      cut.shell.push_back(shell);
     }
     if (!is_manifold(soup)) return std::nullopt;
     cut.crossings = crossings();
@@ -369,24 +367,11 @@ class CutUnion {
     return true;
   }
 
-  std::vector<char> inward_shells() const {
-    std::vector<double> volume(group_.size(), 0.0);
-    for (std::size_t m = 0; m < group_.size(); ++m)
-      for (const Index f : group_.shell(m).faces) {
-        const Vector3& base = group_.shell(m).low;
-        volume[m] += (point_[corner(f, 0)] - base)
-                         .dot((point_[corner(f, 1)] - base).cross(point_[corner(f, 2)] - base));
-      }
-    std::vector<char> turned;
-    for (const double v : volume) turned.push_back(v < 0);
-    return turned;
-  }
-
   // Whether each side has its opposite and each vertex one fan.
   static bool is_manifold(const PolygonSoup& soup) {
     const auto halfedges = static_cast<Index>(soup.corners.size());
     std::vector<std::array<Index, 3>> sides;
-    const auto target = [&](Index h) { return soup.corners[h % 3 == 2 ? h - 2 : h + 1]; };
+    const auto target = [&](Index h) { return soup.corners[FaceSet::next(h)]; };
     for (Index h = 0; h < halfedges; ++h) {
       const Index a = soup.corners[h], b = target(h);
       sides.push_back({std::min(a, b), std::max(a, b), h});
@@ -411,7 +396,7 @@ class CutUnion {
       Index fan = 0, at = h;
       do {
         ++fan;
-        at = twin[at % 3 == 0 ? at + 2 : at - 1];
+        at = twin[FaceSet::prev(at)];
       } while (at != h);
       if (fan != degree[v]) return false;
     }
@@ -423,7 +408,6 @@ class CutUnion {
   std::vector<Index> member_;   // per vertex
   std::vector<Vector3> shift_;  // per member
   std::vector<Vector3> point_;  // the surface's, moved, then those of the curves
-  Index first_point_ = 0;
   std::vector<Passage> passages_;
   std::vector<Segment> segments_;                          // ascending by faces
   std::unordered_map<Index, std::vector<Index>> on_face_;  // segments
@@ -431,61 +415,7 @@ class CutUnion {
   std::vector<CutPiece> pieces_;
 };
 
-// Moves a vertex so that each of its faces moves outward by one, or as near to it as that goes.
-Vector3 growth_at(const SurfaceSnapshot& surface, Index v) {
-  constexpr double kFlat = 0.01, kFarthest = 2;
-  Eigen::Matrix3d normals = Eigen::Matrix3d::Zero();
-  Vector3 sum = Vector3::Zero();
-  double weights = 0;
-  const Index first = surface.vertex_halfedge[v];
-  Index h = first;
-  do {
-    const Vector3 &p = surface.position[v], &q = surface.position[surface.target(h)],
-                  &r = surface.position[surface.apex(h)];
-    const Vector3 normal = (q - p).cross(r - p);
-    const double weight = std::atan2(normal.norm(), (q - p).dot(r - p));
-    if (normal.norm() > 0) {
-      const Vector3 n = normal.normalized();
-      normals += weight * n * n.transpose();
-      sum += weight * n;
-      weights += weight;
-    }
-    h = surface.next_outgoing(h);
-  } while (h != first);
-  if (weights == 0) return Vector3::Zero();
-  normals += kFlat * weights * Eigen::Matrix3d::Identity();
-  const Vector3 way = normals.ldlt().solve(sum);
-  return way / std::max(1.0, way.norm() / kFarthest);
-}
-
 }  // namespace
-
-const ShellGroup& InflatedShells::grow(const std::vector<Index>& members, double by,
-                                       const Execution& execution) {
-  constexpr double kMost = 0.01;  // of the width
-  if (shells_.empty()) {
-    surface_ = original_;
-    shells_ = original_shells_;
-  }
-  std::mt19937 random(1);
-  for (const Index m : members) {
-    Shell& shell = shells_[m];
-    double volume = 0;
-    for (const Index f : shell.faces)
-      volume += original_.face_normal_times_twice_area(f).dot(original_.position[original_.origin[3 * f]] -
-                                                              original_shells_[m].low);
-    const double part = 1 + 0.5 * static_cast<double>(random()) / 4294967296.0;
-    const double way = std::min(by, kMost * shell.width) * part * (volume < 0 ? -1 : 1);
-    for (const Index v : shell.vertices) {
-      surface_.position[v] = original_.position[v] + way * growth_at(original_, v);
-      const Vector3& p = surface_.position[v];
-      shell.low = v == shell.vertices[0] ? p : Vector3(shell.low.cwiseMin(p));
-      shell.high = v == shell.vertices[0] ? p : Vector3(shell.high.cwiseMax(p));
-    }
-  }
-  group_.emplace(surface_, shells_, members, execution);
-  return *group_;
-}
 
 std::optional<CutShells> cut_union(const ShellGroup& group, const Execution& execution) {
   constexpr unsigned kTries = 3;

@@ -19,25 +19,6 @@ struct CutShells {
   std::size_t crossings = 0;       // pairs of shells that cross
 };
 
-// Shells of a surface that are a little larger than they were: those in contact overlap, slits between them
-// close, and of faces in one plane each has a height of its own.
-class InflatedShells {
- public:
-  InflatedShells(const SurfaceSnapshot& surface, const std::vector<Shell>& shells)
-      : original_(surface), original_shells_(shells) {}
-
-  // The members grown by `by`, times one to one and a half, at most a hundredth of their width. Valid until
-  // the next call.
-  const ShellGroup& grow(const std::vector<Index>& members, double by, const Execution& execution);
-
- private:
-  const SurfaceSnapshot& original_;
-  const std::vector<Shell>& original_shells_;
-  SurfaceSnapshot surface_;  // copied when first asked for
-  std::vector<Shell> shells_;
-  std::optional<ShellGroup> group_;
-};
-
 // The shells' triangles cut along the curves where the shells cross, without what lies in another's solid:
 // closed, manifold, counter-clockwise as seen from outside, in the surface's coordinates. Each shell is moved
 // by up to kShellShift first, so that no faces are coplanar and no three meet in a line. Nothing where a

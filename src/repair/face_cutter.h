@@ -24,6 +24,11 @@ class FaceCutter {
 
   FaceCutter(const Point& a, const Point& b, const Point& c);
 
+  // Twice the area of the triangle, positive where it is counter-clockwise.
+  static double turn(const Point& a, const Point& b, const Point& c) {
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+  }
+
   // On the side that ends in corner k + 1, beyond the points that are on it already.
   void add_on_side(int side, const Point& p);
   void add_within(const Point& p);
@@ -34,9 +39,6 @@ class FaceCutter {
 
  private:
   double turn(Index a, Index b, Index c) const { return turn(point_[a], point_[b], point_[c]); }
-  static double turn(const Point& a, const Point& b, const Point& c) {
-    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-  }
   Index add(const Point& p);
   std::pair<Index, int> find_side(Index from, Index to) const;
   Index part_with(const Point& p) const;

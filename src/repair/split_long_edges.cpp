@@ -5,12 +5,10 @@
 #include <tuple>
 
 #include "../mesh/edge_table.h"
+#include "face_set.h"
 
 namespace mspskel::detail {
 namespace {
-
-Index next_edge(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
-Index previous_edge(Index h) { return h % 3 == 0 ? h + 2 : h - 1; }
 
 class Splitting {
  public:
@@ -29,7 +27,7 @@ class Splitting {
     while (!waiting_.empty() && static_cast<Index>(limit_.size()) < most) {
       const auto [excess, a, b, h] = waiting_.top();
       waiting_.pop();
-      if (soup_.corners[h] == a && soup_.corners[next_edge(h)] == b) split(h);
+      if (soup_.corners[h] == a && soup_.corners[FaceSet::next(h)] == b) split(h);
     }
     soup_.begin = {0};
     for (std::size_t end = 3; end <= soup_.corners.size(); end += 3)
@@ -40,33 +38,33 @@ class Splitting {
   const Vector3& from(Index h) const { return soup_.points[soup_.corners[h]]; }
 
   void wait(Index h) {
-    const double length = (from(next_edge(h)) - from(h)).norm();
+    const double length = (from(FaceSet::next(h)) - from(h)).norm();
     const double excess = length / std::min(limit_[h / 3], limit_[twin_[h] / 3]);
-    if (excess > 1) waiting_.emplace(excess, soup_.corners[h], soup_.corners[next_edge(h)], h);
+    if (excess > 1) waiting_.emplace(excess, soup_.corners[h], soup_.corners[FaceSet::next(h)], h);
   }
 
   void split(Index h) {
     const auto middle = static_cast<Index>(soup_.points.size());
-    const Vector3 place = (from(h) + from(next_edge(h))) / 2;
+    const Vector3 place = (from(h) + from(FaceSet::next(h))) / 2;
     soup_.points.push_back(place);
     const Index g = twin_[h];
     const Index beyond_h = halve(h, middle), beyond_g = halve(g, middle);
     // h ends in the middle, and what lies beyond it there starts in it.
     join(h, beyond_g);
     join(g, beyond_h);
-    for (const Index k : {h, g, next_edge(h), next_edge(g)}) wait(k);
+    for (const Index k : {h, g, FaceSet::next(h), FaceSet::next(g)}) wait(k);
   }
   // The triangle keeps the side's first half; returns the half-edge of the other one, in a triangle of its
   // own.
   Index halve(Index h, Index middle) {
     const auto added = static_cast<Index>(soup_.corners.size());
     soup_.corners.insert(soup_.corners.end(),
-                         {middle, soup_.corners[next_edge(h)], soup_.corners[previous_edge(h)]});
+                         {middle, soup_.corners[FaceSet::next(h)], soup_.corners[FaceSet::prev(h)]});
     limit_.push_back(limit_[h / 3]);
     twin_.resize(twin_.size() + 3, kNone);
-    join(added + 1, twin_[next_edge(h)]);
-    soup_.corners[next_edge(h)] = middle;
-    join(next_edge(h), added + 2);
+    join(added + 1, twin_[FaceSet::next(h)]);
+    soup_.corners[FaceSet::next(h)] = middle;
+    join(FaceSet::next(h), added + 2);
     wait(added + 1);  // it may wait under the name that it had
     return added;
   }

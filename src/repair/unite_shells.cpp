@@ -11,6 +11,7 @@
 #include "crossing_shells.h"
 #include "cut_union.h"
 #include "disjoint_sets.h"
+#include "inflated_shells.h"
 #include "merge_short_edges.h"
 #include "mspskel/base/error.h"
 #include "mspskel/mesh/build_mesh.h"

@@ -41,6 +41,16 @@ double share_below(const PolygonSoup& soup, double length) {
   return static_cast<double>(count) / static_cast<double>(surface.halfedge_count());
 }
 
+// Of a union that was cut, in one piece.
+MeshReport report_of_cut(const std::optional<UnitedShells>& united) {
+  REQUIRE(united);
+  CHECK(united->solids == 1);
+  CHECK(united->cell == 0);
+  MeshReport report = report_of(united->soup);
+  CHECK(report.components.size() == 1);
+  return report;
+}
+
 const PolygonSoup kAlongX = box({-3, -0.5, -0.5}, {3, 0.5, 0.5}),
                   kAlongY = box({-0.4, -3, -0.4}, {0.4, 3, 0.4});
 
@@ -150,11 +160,7 @@ TEST_CASE("a lattice of thin bars has the handles that its bars make, with faces
     bars.push_back(box({i - kHalf, -0.5, -kHalf}, {i + kHalf, kBars - 0.5, kHalf}));
   }
   const auto united = unite(together(bars));
-  REQUIRE(united);
-  CHECK(united->solids == 1);
-  CHECK(united->cell == 0);
-  const MeshReport report = report_of(united->soup);
-  CHECK(report.components.size() == 1);
+  const MeshReport report = report_of_cut(united);
   CHECK(report.genus == (kBars - 1) * (kBars - 1));
   CHECK(report.signed_volume ==
         Approx(4 * kHalf * kHalf * 2 * kBars * kBars - 8 * kHalf * kHalf * kHalf * kBars * kBars)
@@ -167,12 +173,8 @@ TEST_CASE("parts in contact, or nearly, that pins hold together are one solid wi
   const PolygonSoup plate = box({-2, -1, -0.5}, {2, 1, 0});
   for (const double gap : {-1e-6, -1e-7, 0.0, 1e-7, 1e-5, 1e-3}) {
     const auto stands = unite(together({plate, box({-1.9, -0.9, gap}, {1.9, 0.9, 0.5 + gap}), pins}));
-    REQUIRE(stands);
+    const MeshReport report = report_of_cut(stands);
     CHECK(stands->shells == 4);
-    CHECK(stands->solids == 1);
-    CHECK(stands->cell == 0);
-    const MeshReport report = report_of(stands->soup);
-    CHECK(report.components.size() == 1);
     CHECK(report.genus == 0);
     CHECK(report.signed_volume ==
           Approx(8 * 0.5 + 3.8 * 1.8 * 0.5 + 0.16 * 0.54 + 0.12 * 0.56).epsilon(0.03));
@@ -184,11 +186,7 @@ TEST_CASE("boxes with faces in one plane are one solid without handles") {
     const auto united =
         unite(together({box({-2, -1, -0.5}, {0.3, 1, 0.5}), box({-0.2, -1 + step, -0.5}, {2, 1 + step, 0.5}),
                         box({-1, -0.5, -0.5 + step}, {1, 0.5, 0.5 + step})}));
-    REQUIRE(united);
-    CHECK(united->solids == 1);
-    CHECK(united->cell == 0);
-    const MeshReport report = report_of(united->soup);
-    CHECK(report.components.size() == 1);
+    const MeshReport report = report_of_cut(united);
     CHECK(report.genus == 0);
     CHECK(report.signed_volume == Approx(8).epsilon(0.01));
   }
@@ -280,11 +278,7 @@ TEST_CASE("a tree of twigs far thinner than its extent is one piece without a lo
     at = next;
   }
   const auto united = unite(together(tubes));
-  REQUIRE(united);
-  CHECK(united->solids == 1);
-  CHECK(united->cell == 0);
-  const MeshReport report = report_of(united->soup);
-  CHECK(report.components.size() == 1);
+  const MeshReport report = report_of_cut(united);
   CHECK(report.genus == 0);
 }
 
