@@ -120,16 +120,22 @@ TEST_CASE("rays find the brute-force hits, from near and from far") {
   CHECK(hits > 100);
 }
 
-TEST_CASE("a fan of rays is its rays") {
-  const SurfaceSnapshot s = snapshot({test::torus(2, 0.7, 24, 12), sphere(0.8)});
+TEST_CASE("a fan of rays is its rays, near the surface, far from it and outside") {
+  const SurfaceSnapshot s = snapshot({test::torus(2, 0.7, 48, 24), sphere(0.8)});
   const BoundingVolumeHierarchy tree(s);
   Points random;
-  for (int i = 0; i < 100; ++i) {
-    const Vector3 p = random(), t = random().normalized(), u = t.unitOrthogonal(), w = t.cross(u);
-    std::array<double, 24> fan;
-    tree.ray_fan(p, u, w, 24, fan.data());
-    for (int k = 0; k < 24; ++k) {
-      const auto hit = tree.first_hit(p, std::cos(2 * kPi * k / 24) * u + std::sin(2 * kPi * k / 24) * w);
+  constexpr int kRays = 24;
+  for (int i = 0; i < 400; ++i) {
+    const Vector3 t = random().normalized(), u = t.unitOrthogonal(), w = t.cross(u);
+    const Index v = (37 * i) % s.vertex_count();
+    const std::array<Vector3, 4> from{random(), 1e4 * random(), s.position[v] - 1e-3 * s.normal[v],
+                                      s.position[v] - 0.1 * s.normal[v]};
+    const Vector3& p = from[i % 4];
+    std::array<double, kRays> fan;
+    tree.ray_fan(p, u, w, kRays, fan.data());
+    for (int k = 0; k < kRays; ++k) {
+      const double angle = 2 * kPi * k / kRays;
+      const auto hit = tree.first_hit(p, std::cos(angle) * u + std::sin(angle) * w);
       CHECK(std::isfinite(fan[k]) == hit.has_value());
       if (hit) CHECK(fan[k] == Approx(hit->distance).epsilon(1e-9).margin(1e-12));
     }

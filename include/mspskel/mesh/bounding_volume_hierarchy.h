@@ -89,9 +89,13 @@ class BoundingVolumeHierarchy {
   // Calls visit(face) for the triangles of a leaf until it returns false, which it then returns.
   template <class Visit>
   bool visit_leaf(Index first, Index count, Visit visit) const;
-  // Calls visit(slot) for the triangles near the ray, roughly front to back, until it returns false.
-  template <class Visit>
-  void along_ray(const Vector3& origin, const Vector3& unit, const double& bound, Visit visit) const;
+  // Calls visit(slot) for the triangles near the ray until it returns false. The boxes are the tree, which
+  // gives them roughly front to back, or a fan of it.
+  template <class Boxes, class Visit>
+  void along_ray(const Boxes& boxes, const Vector3& origin, const Vector3& unit, const double& bound,
+                 Visit visit) const;
+  template <class Boxes>
+  RayHit first_hit(const Boxes& boxes, const Vector3& origin, const Vector3& unit, double max_distance) const;
 
   detail::BoxTree tree_;
   double reach_ = 0.0;  // bounds every coordinate

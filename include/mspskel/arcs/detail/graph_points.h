@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -36,24 +37,32 @@ inline std::vector<Index> components_of_pieces(const ArcGraph& graph, const Surf
   return component;
 }
 
-// The 64 points nearest to x of the accepted hubs and arcs, by their distance.
+// The 64 points nearest to x of the accepted hubs and arcs, by their distance. O(points).
 template <class AcceptHub, class AcceptArc>
 std::vector<std::pair<double, GraphPoint>> nearest_points(const ArcGraph& graph, const Vector3& x,
                                                           AcceptHub accept_hub, AcceptArc accept_arc) {
-  std::vector<std::pair<double, GraphPoint>> all;
+  constexpr std::size_t kSeen = 64;
+  std::vector<std::pair<double, GraphPoint>> near;
+  double bound = std::numeric_limits<double>::infinity();  // what is no nearer is none of them
+  const auto by_distance = [](const auto& a, const auto& b) { return a.first < b.first; };
+  const auto offer = [&](const GraphPoint& point) {
+    const double distance = (point.position - x).norm();
+    if (distance >= bound) return;
+    near.push_back({distance, point});
+    if (near.size() < 4 * kSeen) return;
+    std::nth_element(near.begin(), near.begin() + kSeen - 1, near.end(), by_distance);
+    near.resize(kSeen);
+    bound = near.back().first;
+  };
   for (Index h = 0; h < graph.hub_count(); ++h)
-    if (graph.hub_alive[h] && accept_hub(h))
-      all.push_back({(graph.hub_position[h] - x).norm(), {h, kNone, 0, graph.hub_position[h]}});
+    if (graph.hub_alive[h] && accept_hub(h)) offer({h, kNone, 0, graph.hub_position[h]});
   for (Index a = 0; a < graph.arc_count(); ++a)
     if (graph.arcs[a].alive && accept_arc(a))
       for (std::size_t i = 1; i + 1 < graph.arcs[a].points.size(); ++i)
-        all.push_back({(graph.arcs[a].points[i] - x).norm(), {kNone, a, i, graph.arcs[a].points[i]}});
-  constexpr std::size_t kSeen = 64;
-  const auto end = all.begin() + static_cast<std::ptrdiff_t>(std::min(kSeen, all.size()));
-  std::partial_sort(all.begin(), end, all.end(),
-                    [](const auto& a, const auto& b) { return a.first < b.first; });
-  all.erase(end, all.end());
-  return all;
+        offer({kNone, a, i, graph.arcs[a].points[i]});
+  std::sort(near.begin(), near.end(), by_distance);
+  if (near.size() > kSeen) near.resize(kSeen);
+  return near;
 }
 
 // The hub at a point of the graph; an arc ends there if it did not, and what is nearer to the rest of it goes

@@ -85,13 +85,13 @@ MSPSKEL_AVX_CLONES MSPSKEL_INLINE ClosestPoint BoundingVolumeHierarchy::closest(
   return best;
 }
 
-template <class Visit>
-void BoundingVolumeHierarchy::along_ray(const Vector3& origin, const Vector3& unit, const double& bound,
-                                        Visit visit) const {
+template <class Boxes, class Visit>
+void BoundingVolumeHierarchy::along_ray(const Boxes& boxes, const Vector3& origin, const Vector3& unit,
+                                        const double& bound, Visit visit) const {
   const detail::FilterPoint rough(origin, reach_);
   const float direction[3] = {static_cast<float>(unit[0]), static_cast<float>(unit[1]),
                               static_cast<float>(unit[2])};
-  tree_.along_ray(origin, unit, bound, [&](Index first, Index count) {
+  boxes.along_ray(origin, unit, bound, [&](Index first, Index count) {
     alignas(16) float may[4];
     blocks_[first / detail::BoxTree::kLeafSize].may_meet(rough, direction, may);
     for (Index k = 0; k < count; ++k)
@@ -100,26 +100,32 @@ void BoundingVolumeHierarchy::along_ray(const Vector3& origin, const Vector3& un
   });
 }
 
-MSPSKEL_AVX_CLONES MSPSKEL_INLINE std::optional<RayHit> BoundingVolumeHierarchy::first_hit(
-    const Vector3& origin, const Vector3& direction, double max_distance) const {
-  const Vector3 unit = direction.normalized();
+template <class Boxes>
+RayHit BoundingVolumeHierarchy::first_hit(const Boxes& boxes, const Vector3& origin, const Vector3& unit,
+                                          double max_distance) const {
   RayHit best{kNone, max_distance};
-  along_ray(origin, unit, best.distance, [&](Index slot) {
+  along_ray(boxes, origin, unit, best.distance, [&](Index slot) {
     const detail::RayTriangle r(origin, unit, triangles_[slot]);
     if (!r.meets_line() || r.volume() == 0) return true;
     const double t = r.distance(unit);
     if (t >= 0 && t <= best.distance) best = {face_[slot], t};
     return true;
   });
-  if (best.face == kNone) return std::nullopt;
   return best;
+}
+
+MSPSKEL_AVX_CLONES MSPSKEL_INLINE std::optional<RayHit> BoundingVolumeHierarchy::first_hit(
+    const Vector3& origin, const Vector3& direction, double max_distance) const {
+  const RayHit hit = first_hit(tree_, origin, direction.normalized(), max_distance);
+  if (hit.face == kNone) return std::nullopt;
+  return hit;
 }
 
 MSPSKEL_INLINE Index BoundingVolumeHierarchy::count_hits(const Vector3& origin, const Vector3& direction,
                                                          double max_distance) const {
   const Vector3 unit = direction.normalized();
   Index hits = 0;
-  along_ray(origin, unit, max_distance, [&](Index slot) {
+  along_ray(tree_, origin, unit, max_distance, [&](Index slot) {
     const detail::RayTriangle r(origin, unit, triangles_[slot]);
     if (!r.meets_line() || r.volume() == 0) return true;
     const double t = r.distance(unit);
@@ -129,12 +135,32 @@ MSPSKEL_INLINE Index BoundingVolumeHierarchy::count_hits(const Vector3& origin, 
   return hits;
 }
 
-MSPSKEL_INLINE void BoundingVolumeHierarchy::ray_fan(const Vector3& p, const Vector3& u, const Vector3& w,
-                                                     int count, double* distance) const {
+// Rays of a fan meet the same few leaves, those on its plane within the farthest hit: they are collected
+// once, out to twice what the first ray that passes them all sees, and each ray looks at them before the
+// tree.
+MSPSKEL_AVX_CLONES MSPSKEL_INLINE void BoundingVolumeHierarchy::ray_fan(const Vector3& p, const Vector3& u,
+                                                                        const Vector3& w, int count,
+                                                                        double* distance) const {
   const std::vector<Vector2>& direction = even_directions(count);
+  const Vector3 normal = u.cross(w);
+  // Far from the boxes single precision does not tell where the plane is.
+  bool collects = p.cwiseAbs().maxCoeff() <= reach_;
+  double radius = 0.0;  // the fan has all leaves within it
+  detail::BoxFan fan;
   for (int k = 0; k < count; ++k) {
-    const auto hit = first_hit(p, direction[k].x() * u + direction[k].y() * w);
-    distance[k] = hit ? hit->distance : std::numeric_limits<double>::infinity();
+    const Vector3 unit = (direction[k].x() * u + direction[k].y() * w).normalized();
+    RayHit hit;
+    if (radius > 0) hit = first_hit(fan, p, unit, radius);
+    if (hit.face == kNone) {
+      hit = first_hit(tree_, p, unit, std::numeric_limits<double>::infinity());
+      if (collects && hit.face != kNone) {
+        radius = 2 * hit.distance;
+        const Vector3 reach = Vector3::Constant(radius);
+        collects = tree_.collect_on_plane(p - reach, p + reach, normal, normal.dot(p), fan);
+        if (!collects) radius = 0.0;
+      }
+    }
+    distance[k] = hit.face != kNone ? hit.distance : std::numeric_limits<double>::infinity();
   }
 }
 
@@ -156,7 +182,7 @@ MSPSKEL_INLINE bool BoundingVolumeHierarchy::inside(const Vector3& p) const {
   for (int k = 0; k < kDirections; ++k) {
     const Vector3& direction = directions[(start + k) % kDirections];
     bool odd = false, doubtful = false, on_surface = false;
-    along_ray(p, direction, std::numeric_limits<double>::infinity(), [&](Index slot) {
+    along_ray(tree_, p, direction, std::numeric_limits<double>::infinity(), [&](Index slot) {
       const detail::Crossing crossing = detail::ray_crossing(p, direction, triangles_[slot]);
       odd = odd != (crossing == detail::Crossing::kClear);
       doubtful = doubtful || crossing == detail::Crossing::kDoubtful;
@@ -189,7 +215,7 @@ MSPSKEL_AVX_CLONES MSPSKEL_INLINE bool BoundingVolumeHierarchy::segment_crosses(
   const double length = (b - a).norm();
   if (!(length > 0)) return false;
   bool crossed = false;
-  along_ray(a, (b - a) / length, length, [&](Index slot) {
+  along_ray(tree_, a, (b - a) / length, length, [&](Index slot) {
     crossed = detail::segment_meets_triangle(a, b, triangles_[slot], false);
     return !crossed;
   });

@@ -1,5 +1,5 @@
-// A tree of boxes over numbered primitives, and the traversals: by distance from a point, along a ray,
-// through a box, between two planes.
+// A tree of boxes over numbered primitives, and the traversals: by distance from a point, along a ray or a
+// fan of rays, through a box, between two planes.
 #pragma once
 
 #include <algorithm>
@@ -14,6 +14,8 @@
 
 namespace mspskel {
 namespace detail {
+
+class BoxFan;
 
 class BoxTree {
  public:
@@ -49,6 +51,10 @@ class BoxTree {
   template <class Leaf>
   void in_box_on_plane(const Vector3& low, const Vector3& high, const Vector3& normal, double offset,
                        Leaf leaf) const;
+
+  // The same leaves with their boxes, if there is room for them.
+  bool collect_on_plane(const Vector3& low, const Vector3& high, const Vector3& normal, double offset,
+                        BoxFan& fan) const;
 
   // Calls leaf(first, count) for the leaves whose box meets the slab low <= normal · x <= high; stops when
   // the callback returns false. The normal has length 1.
@@ -119,6 +125,35 @@ void BoxTree::by_distance(const Vector3& p, const double& bound, Leaf leaf) cons
   }
 }
 
+// A ray against the four boxes of a node. The origin is near the boxes, where single precision suffices.
+class BoxRay {
+ public:
+  BoxRay(const Vector3& origin, const Vector3& direction) {
+    for (int a = 0; a < 3; ++a) {
+      origin_[a] = static_cast<float>(origin[a]);
+      const double d = direction[a];
+      inverse_[a] = static_cast<float>(std::abs(d) > 1e-30 ? 1.0 / d : std::copysign(1e30, d));
+    }
+  }
+  // A limit for what follows, a little farther than the distance.
+  static float limit_of(double distance) {
+    return static_cast<float>(std::min(distance, 1e30)) * (1.0f + 1e-6f);
+  }
+  // The lanes whose box the ray meets within the limit, and where it enters them.
+  unsigned meets(const BoxNode& node, float limit, Lanes& in) const {
+    Lanes out = all(limit);
+    in = Lanes{};
+    for (int a = 0; a < 3; ++a) {
+      in = larger(in, (load(inverse_[a] < 0 ? node.high[a] : node.low[a]) - origin_[a]) * inverse_[a]);
+      out = smaller(out, (load(inverse_[a] < 0 ? node.low[a] : node.high[a]) - origin_[a]) * inverse_[a]);
+    }
+    return at_most(in, out * (1.0f + 1e-6f));
+  }
+
+ private:
+  float origin_[3], inverse_[3];
+};
+
 template <class Leaf>
 void BoxTree::along_ray(const Vector3& origin, const Vector3& direction, const double& bound,
                         Leaf leaf) const {
@@ -129,17 +164,8 @@ void BoxTree::along_ray(const Vector3& origin, const Vector3& direction, const d
     if (slid <= 0 || (origin + slid * direction).cwiseAbs().maxCoeff() > 2 * reach_) return;
     slid -= 2 * reach_;
   }
-  const Vector3 start = origin + slid * direction;
-  float o[3], inverse[3];
-  for (int a = 0; a < 3; ++a) {
-    o[a] = static_cast<float>(start[a]);
-    const double d = direction[a];
-    inverse[a] = static_cast<float>(std::abs(d) > 1e-30 ? 1.0 / d : std::copysign(1e30, d));
-  }
-  const auto limit_of = [&](double distance) {
-    return static_cast<float>(std::min(distance - slid, 1e30)) * (1.0f + 1e-6f);
-  };
-  float limit = limit_of(bound);
+  const BoxRay ray(origin + slid * direction, direction);
+  float limit = BoxRay::limit_of(bound - slid);
   BoxStack stack;
   stack.push_root();
   while (!stack.empty()) {
@@ -147,18 +173,57 @@ void BoxTree::along_ray(const Vector3& origin, const Vector3& direction, const d
     if (top.key > limit) continue;
     if (top.count > 0) {
       if (!leaf(top.child, top.count)) return;
-      limit = limit_of(bound);
+      limit = BoxRay::limit_of(bound - slid);
       continue;
     }
     const BoxNode& node = nodes_[top.child];
-    Lanes in = {}, out = all(limit);
-    for (int a = 0; a < 3; ++a) {
-      in = larger(in, (load(inverse[a] < 0 ? node.high[a] : node.low[a]) - o[a]) * inverse[a]);
-      out = smaller(out, (load(inverse[a] < 0 ? node.low[a] : node.high[a]) - o[a]) * inverse[a]);
-    }
-    stack.push(node, in, at_most(in, out * (1.0f + 1e-6f)));
+    Lanes in;
+    const unsigned lanes = ray.meets(node, limit, in);
+    stack.push(node, in, lanes);
   }
 }
+
+// The leaves of a tree that a fan of rays can meet, side by side: so few that each ray looks at all of them.
+class BoxFan {
+ public:
+  void clear() { size_ = 0; }
+  // False when it is full.
+  bool add(const BoxNode& node, int lane) {
+    if (size_ == kMost) return false;
+    BoxNode& to = nodes_[size_ / 4];
+    const int k = size_++ % 4;
+    if (k == 0)
+      for (int a = 0; a < 3; ++a) {
+        store(all(1e30f), to.low[a]);
+        store(all(-1e30f), to.high[a]);
+      }
+    for (int a = 0; a < 3; ++a) {
+      to.low[a][k] = node.low[a][lane];
+      to.high[a][k] = node.high[a][lane];
+    }
+    to.child[k] = node.child[lane];
+    to.count[k] = node.count[lane];
+    return true;
+  }
+  // As BoxTree::along_ray, in no order, for a ray of the fan.
+  template <class Leaf>
+  void along_ray(const Vector3& origin, const Vector3& direction, const double& bound, Leaf leaf) const {
+    const BoxRay ray(origin, direction);
+    for (int first = 0; first < size_; first += 4) {
+      const BoxNode& node = nodes_[first / 4];
+      Lanes in;
+      for (unsigned lanes = ray.meets(node, BoxRay::limit_of(bound), in); lanes != 0; lanes &= lanes - 1) {
+        const int k = __builtin_ctz(lanes);
+        if (!leaf(node.child[k], node.count[k])) return;
+      }
+    }
+  }
+
+ private:
+  static constexpr int kMost = 32;  // beyond, the tree is faster
+  BoxNode nodes_[kMost / 4];
+  int size_ = 0;
+};
 
 // Which lanes of a node meet a box.
 class MeetsBox {
@@ -223,17 +288,45 @@ void BoxTree::in_box(const Vector3& low, const Vector3& high, Leaf leaf) const {
   where(MeetsBox(low, high), leaf);
 }
 
+// Which lanes of a node meet a box and a plane.
+class MeetsBoxOnPlane {
+ public:
+  MeetsBoxOnPlane(const Vector3& low, const Vector3& high, const Vector3& normal, double offset, double reach)
+      : box_(low, high), plane_(normal, offset, offset, reach) {}
+  unsigned operator()(const BoxNode& node) const {
+    const unsigned lanes = box_(node);
+    return lanes == 0 ? lanes : lanes & plane_(node);
+  }
+
+ private:
+  MeetsBox box_;
+  MeetsSlab plane_;
+};
+
 template <class Leaf>
 void BoxTree::in_box_on_plane(const Vector3& low, const Vector3& high, const Vector3& normal, double offset,
                               Leaf leaf) const {
-  const MeetsBox meets_box(low, high);
-  const MeetsSlab meets_plane(normal, offset, offset, reach_);
-  where(
-      [&](const BoxNode& node) {
-        const unsigned lanes = meets_box(node);
-        return lanes == 0 ? lanes : lanes & meets_plane(node);
-      },
-      leaf);
+  where(MeetsBoxOnPlane(low, high, normal, offset, reach_), leaf);
+}
+
+inline bool BoxTree::collect_on_plane(const Vector3& low, const Vector3& high, const Vector3& normal,
+                                      double offset, BoxFan& fan) const {
+  const MeetsBoxOnPlane meets(low, high, normal, offset, reach_);
+  fan.clear();
+  Index waiting[3 * 64];  // as many as BoxStack has
+  int size = 0;
+  waiting[size++] = 0;
+  while (size > 0) {
+    const BoxNode& node = nodes_[waiting[--size]];
+    for (unsigned lanes = meets(node); lanes != 0; lanes &= lanes - 1) {
+      const int k = __builtin_ctz(lanes);
+      if (node.count[k] == 0)
+        waiting[size++] = node.child[k];
+      else if (!fan.add(node, k))
+        return false;
+    }
+  }
+  return true;
 }
 
 template <class Leaf>
