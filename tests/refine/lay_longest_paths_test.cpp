@@ -41,7 +41,29 @@ DefaultMesh random_profile(const std::vector<std::string>& rows, test::Random& r
   return to_mesh(with_planes_at(boundary(drawn(rows), kFine), kFine, place));
 }
 
-// It has a length, keeps off the surface, and nothing is wrong with it.
+// The longest way of a branch between two of its nodes that lie in one ball, in radii of that ball.
+double longest_return(const CurveSkeleton& skeleton, const SurfaceSnapshot& surface,
+                      const BoundingVolumeHierarchy& solid) {
+  double longest = 0;
+  for (const Branch& branch : branches(skeleton)) {
+    std::vector<Vector3> at;
+    std::vector<double> walked;
+    for (const Index node : branch.nodes) {
+      const Vector3 x = surface.frame.to_normalised(skeleton.nodes[node].position);
+      walked.push_back(at.empty() ? 0.0 : walked.back() + (x - at.back()).norm());
+      at.push_back(x);
+    }
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      const double radius = solid.distance(at[i]);
+      for (std::size_t j = 0; j < at.size(); ++j)
+        if ((at[j] - at[i]).norm() < radius)
+          longest = std::max(longest, std::abs(walked[j] - walked[i]) / radius);
+    }
+  }
+  return longest;
+}
+
+// It has a length, keeps off the surface, does not wind, and nothing is wrong with it.
 void check_useful(const DefaultMesh& mesh) {
   const ExtractResult result = extract_skeleton(mesh);
   CHECK(result.warnings.empty());
@@ -50,6 +72,7 @@ void check_useful(const DefaultMesh& mesh) {
   CHECK(checks.topology);
   CHECK(checks.contained);
   CHECK(checks.length * checks.diagonal >= kLeastPieceLength * result.surface.frame.scale);
+  CHECK(longest_return(result.skeleton, result.surface, solid) < 4);
   for (const SkeletonNode& node : result.skeleton.nodes) {
     CHECK(node.position.allFinite());
     CHECK(node.radius > 1e-6 * result.surface.frame.scale);
@@ -94,6 +117,13 @@ TEST_CASE("Grooves between sheets are no vessels, however deep or long they are"
     check_useful(to_mesh(with_planes_at(boundary(drawn(profiles()[2]), fine), fine, tee)));
     check_useful(to_mesh(with_planes_at(boundary(drawn(profiles()[0]), fine), fine, channel)));
   }
+}
+
+TEST_CASE("The path of a channel does not wind between its walls") {
+  const Planes place{
+      {{{0, 0}, {1, 0.5}, {2, 3.5}, {3, 4}}, {{0, 0}, {1, 1}, {2, 2}, {3, 3}}, {{0, 0}, {1, 4}}}};
+  for (const int fine : {1, 2, 4})
+    check_useful(to_mesh(with_planes_at(boundary(drawn(profiles()[0]), fine), fine, place)));
 }
 
 TEST_CASE("A plate has a skeleton as long as it is wide") {

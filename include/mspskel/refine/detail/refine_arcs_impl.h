@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "mspskel/arcs/cut_returns.h"
 #include "mspskel/arcs/limit_nodes.h"
 #include "mspskel/arcs/merge_joints.h"
 #include "mspskel/arcs/sharpen_corners.h"
@@ -58,6 +59,7 @@ class ArcRefinement {
     complete();
     center(draft_);
     zip(ends_of_limbs());
+    cut();  // a completed limb's way may have gone to and fro in the body
     extend();
     center(draft_);
     prune();
@@ -110,12 +112,14 @@ class ArcRefinement {
     return strays;
   }
   // A leaf that centring has drawn back from its target goes there again, before anyone calls it a spur, and
-  // stays while the arcs near what has changed settle. That may draw back others.
+  // stays while the arcs near what has changed settle. That may draw back others, and lay arcs double.
   void settle_strays() {
     constexpr int kPasses = 3;
     ArcGraph settled = graph_;
     std::vector<Index> held = aim_strays();
-    bool unsettled = drop_spurs() > 0 || !held.empty();
+    bool unsettled = !held.empty();
+    if (cut() > 0) unsettled = true;
+    if (drop_spurs() > 0) unsettled = true;
     for (int pass = 0; pass < kPasses && unsettled; ++pass) {
       center_part(graph_, arcs_near_changes(settled, graph_), solid_, options_.centering, execution_,
                   classes_.crossings, held);
@@ -123,7 +127,7 @@ class ArcRefinement {
       settled = graph_;
       const std::vector<Index> strays = aim_strays();
       held.insert(held.end(), strays.begin(), strays.end());
-      unsettled = !strays.empty();
+      unsettled = cut() > 0 || !strays.empty();
     }
   }
   void lay() {
@@ -148,6 +152,11 @@ class ArcRefinement {
   void center(const CenteringOptions& centering) {
     center_arcs(graph_, solid_, centering, execution_, classes_.crossings);
     keep_type("centring");
+  }
+  Index cut() {
+    const Index cuts = cut_returns(graph_, solid_, execution_, classes_.crossings);
+    keep_type("cutting of returns");
+    return cuts;
   }
   void zip(const std::vector<bool>& kept = {}) {
     counts_.zips += zip_arcs(graph_, surface_, solid_, options_.zip, classes_.crossings, execution_, kept);
