@@ -1,6 +1,7 @@
 // What an arc does between two points of one ball goes, unless it goes round a handle.
 #include "mspskel/arcs/cut_returns.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -56,6 +57,30 @@ TEST_CASE("A detour within a ball gives way to its chord, wherever it is on the 
     CHECK(crossings(graph, bar.hierarchy) == 0);
     CHECK(cut_returns(graph, bar.hierarchy) == 0);
   }
+}
+
+TEST_CASE("An arc that comes back before its end ends where it was farthest") {
+  const Solid bar(tube(1, 8, 32, 40));
+  std::vector<Vector3> corners{{0, 0, 2}, {0, 0, 7}, {0, 0.1, 7}, {0, 0.1, 4}};
+  for (const bool back : {false, true}) {
+    if (back) std::reverse(corners.begin(), corners.end());
+    ArcGraph graph = arc_through(bar, corners);
+    CHECK(cut_returns(graph, bar.hierarchy) == 1);
+    CHECK(arcs_meet_hubs(graph));
+    CHECK(length(bar, graph) == Approx(5).margin(0.2));
+    const Vector3 first = bar.model(graph.hub_position[0]), last = bar.model(graph.hub_position[1]);
+    CHECK((back ? first : last).z() == Approx(7).margin(0.1));
+    CHECK((back ? last : first).z() == 2);
+  }
+  // At its other end where another arc ends, too.
+  ArcGraph graph = arc_through(bar, {{0, 0, 2}, {0, 0, 7}, {0, 0.1, 7}, {0, 0.1, 4}});
+  const Index joint = 1, tip = graph.add_hub(bar.at({0, 0.8, 4}));
+  add_arc(graph, joint, tip, {});
+  const Vector3 before = graph.hub_position[joint];
+  CHECK(cut_returns(graph, bar.hierarchy) == 1);
+  CHECK(graph.hub_position[joint] == before);
+  CHECK(bar.model(graph.hub_position[0]).z() == Approx(7).margin(0.1));
+  CHECK(length(bar, graph) == Approx(3).margin(0.2));
 }
 
 TEST_CASE("Bends of bars stay, a full turn too") {

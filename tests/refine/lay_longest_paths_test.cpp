@@ -124,6 +124,15 @@ TEST_CASE("The path of a channel does not wind between its walls") {
       {{{0, 0}, {1, 0.5}, {2, 3.5}, {3, 4}}, {{0, 0}, {1, 1}, {2, 2}, {3, 3}}, {{0, 0}, {1, 4}}}};
   for (const int fine : {1, 2, 4})
     check_useful(to_mesh(with_planes_at(boundary(drawn(profiles()[0]), fine), fine, place)));
+  // Of the one with the fewest vertices it goes up both walls, from the base whose middle is at y = 2.5.
+  std::array<double, 2> least{3, 3};
+  for (const SkeletonNode& node :
+       extract_skeleton(to_mesh(with_planes_at(boundary(drawn(profiles()[0])), 1, place))).skeleton.nodes)
+    for (const int wall : {0, 1})
+      if (std::abs(node.position.x() - (wall == 0 ? 0.25 : 3.75)) < 0.25)
+        least[wall] = std::min(least[wall], node.position.y());
+  CHECK(least[0] < 1.6);
+  CHECK(least[1] < 1.6);
 }
 
 TEST_CASE("A plate has a skeleton as long as it is wide") {

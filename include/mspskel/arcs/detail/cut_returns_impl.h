@@ -1,9 +1,8 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <numeric>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -16,9 +15,11 @@ namespace detail {
 // The detours of one arc.
 class ReturnSearch {
  public:
-  ReturnSearch(const std::vector<Vector3>& points, const BoundingVolumeHierarchy& solid,
-               const CrossingLabels& crossings)
+  // `is_leaf`: whether nothing else ends where the points begin, and where they end.
+  ReturnSearch(const std::vector<Vector3>& points, const std::array<bool, 2>& is_leaf,
+               const BoundingVolumeHierarchy& solid, const CrossingLabels& crossings)
       : points_(points),
+        is_leaf_(is_leaf),
         solid_(solid),
         crossings_(crossings),
         walked_(points.size(), 0.0),
@@ -34,12 +35,29 @@ class ReturnSearch {
   std::pair<std::vector<Vector3>, Index> run() {
     std::vector<Vector3> line;
     Index detours = 0;
-    for (std::size_t i = 0; i < points_.size(); ++i) {
+    const std::size_t end = points_.size();
+    for (std::size_t i = 0; i < end; ++i) {
       line.push_back(points_[i]);
       const std::size_t back = last_return(i);
       if (back == i) continue;
       ++detours;
-      i = back - 1;
+      const std::size_t ball = radius(i) >= radius(back) ? i : back;
+      const Reach before = reach(ball, 0, i + 1), detour = reach(ball, i, back + 1),
+                  after = reach(ball, back, end);
+      const auto is_passed = [&](const Reach& by) {
+        return detour.beyond > std::max(0.0, by.beyond) + radius(ball);
+      };
+      const bool begins = is_leaf_[0] && is_passed(before), ends = is_leaf_[1] && is_passed(after);
+      if (ends && (!begins || after.beyond <= before.beyond)) {
+        append(line, i + 1, detour.farthest + 1);
+        break;
+      }
+      if (begins) {
+        line.clear();
+        i = detour.farthest - 1;
+      } else {
+        i = back - 1;
+      }
     }
     return {std::move(line), detours};
   }
@@ -47,9 +65,29 @@ class ReturnSearch {
  private:
   static constexpr double kDetour = 2;  // times the chord
 
+  struct Reach {
+    double beyond = 0;  // the ball
+    std::size_t farthest = 0;
+  };
+
+  void append(std::vector<Vector3>& line, std::size_t first, std::size_t end) const {
+    line.insert(line.end(), points_.begin() + static_cast<std::ptrdiff_t>(first),
+                points_.begin() + static_cast<std::ptrdiff_t>(end));
+  }
+
   double radius(std::size_t i) {
     if (radius_[i] < 0) radius_[i] = solid_.distance(points_[i]);
     return radius_[i];
+  }
+
+  // How far the points from `first` up to the one before `end` reach beyond the ball at a point.
+  Reach reach(std::size_t ball, std::size_t first, std::size_t end) {
+    Reach most{-radius(ball), ball};
+    for (std::size_t k = first; k < end; ++k) {
+      const double beyond = (points_[k] - points_[ball]).norm() - radius(ball);
+      if (beyond > most.beyond) most = {beyond, k};
+    }
+    return most;
   }
 
   // The last point to which the way from i is a detour; i where there is none.
@@ -72,11 +110,13 @@ class ReturnSearch {
   bool is_return(std::size_t i, std::size_t j, double way, double chord) {
     const double ball = std::max(radius(i), radius(j));
     if (chord >= ball || way <= ball) return false;
-    return !crossings_.goes_round({points_.begin() + static_cast<std::ptrdiff_t>(i),
-                                   points_.begin() + static_cast<std::ptrdiff_t>(j) + 1});
+    std::vector<Vector3> ring;
+    append(ring, i, j + 1);
+    return !crossings_.goes_round(ring);
   }
 
   const std::vector<Vector3>& points_;
+  const std::array<bool, 2> is_leaf_;
   const BoundingVolumeHierarchy& solid_;
   const CrossingLabels& crossings_;
   std::vector<double> walked_;  // along the arc
@@ -89,17 +129,26 @@ class ReturnSearch {
 MSPSKEL_INLINE Index cut_returns(ArcGraph& graph, const BoundingVolumeHierarchy& solid,
                                  const Execution& execution, const CrossingLabels& crossings) {
   std::vector<Index> detours(graph.arcs.size(), 0);
+  const std::vector<std::vector<Index>> incidence = graph.incidence();
   parallel_for(
       graph.arc_count(), "arcs", execution, [] { return 0; },
       [&](Index a, int) {
         Arc& arc = graph.arcs[a];
         if (!arc.alive || arc.points.size() < 3) return;
-        auto [line, count] = detail::ReturnSearch(arc.points, solid, crossings).run();
+        const auto is_leaf = [&](int end) { return incidence[arc.hub[end]].size() == 1; };
+        auto [line, count] =
+            detail::ReturnSearch(arc.points, {is_leaf(0), is_leaf(1)}, solid, crossings).run();
         if (count == 0) return;
         arc.points = std::move(line);
         detours[a] = count;
       },
       1);
+  for (Index a = 0; a < graph.arc_count(); ++a) {
+    if (detours[a] == 0) continue;
+    const Arc& arc = graph.arcs[a];
+    graph.hub_position[arc.hub[0]] = arc.points.front();
+    graph.hub_position[arc.hub[1]] = arc.points.back();
+  }
   return std::accumulate(detours.begin(), detours.end(), 0);
 }
 
