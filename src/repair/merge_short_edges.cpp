@@ -32,6 +32,7 @@ SurfaceSnapshot snapshot_of(const PolygonSoup& soup) {
 PolygonSoup without_short_edges(const PolygonSoup& soup, double length, Watch& watch) {
   watch.ask();
   const SurfaceSnapshot surface = snapshot_of(soup);
+  watch.ask();
   CoarseningOptions options;
   options.component_vertices = 4;
   options.least_shape = 0;  // what is cut into slivers keeps some until the last short edge is merged
@@ -52,6 +53,7 @@ PolygonSoup without_short_edges(const PolygonSoup& soup, double length, Watch& w
     }
     if (mesh.sparse()) mesh.compact();
   }
+  watch.ask();
   CoarseSurface merged;
   mesh.finish(merged);
   PolygonSoup result;
