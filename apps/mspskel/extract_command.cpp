@@ -108,6 +108,11 @@ bool writes_report(const ExtractSettings& settings) {
   });
 }
 
+bool needs_parts(const ExtractSettings& settings, const ExtractResult& result) {
+  const bool shown = std::any_of(settings.outputs.begin(), settings.outputs.end(), is_page);
+  return !settings.segments.empty() || (shown && !result.skeleton.nodes.empty());
+}
+
 void add_losses(const ExtractSettings& settings, ExtractResult& result) {
   for (const std::string& output : settings.outputs) {
     if (!is_skeleton_file(output)) continue;
@@ -130,11 +135,13 @@ struct Extraction {
   std::vector<JointTurn> pose;  // of the rig
 };
 
+// Pages show parts, too: those of the options' defaults where no file of parts is written.
 void segment(const ExtractSettings& settings, Extraction& extraction) {
   const Stopwatch segmenting;
   ExtractResult& result = extraction.made.result;
-  extraction.segmentation = segment_surface(result.surface, result.skeleton, settings.segmentation,
-                                            result.coarse ? &*result.coarse : nullptr);
+  extraction.segmentation = segment_surface(
+      result.surface, result.skeleton, settings.segments.empty() ? SegmentOptions{} : settings.segmentation,
+      result.coarse ? &*result.coarse : nullptr, settings.run.extract.execution.progress);
   result.seconds.emplace_back("parts", segmenting.seconds());
 }
 
@@ -190,7 +197,7 @@ Extraction extract_and_check(const ExtractSettings& settings, const Cancellation
                       extraction.reported ? CertificateDepth::kFull : CertificateDepth::kVerdict);
   add_losses(settings, extraction.made.result);
   add_renumbered(settings, extraction.made);
-  if (!settings.segments.empty()) segment(settings, extraction);
+  if (needs_parts(settings, extraction.made.result)) segment(settings, extraction);
   if (settings.needs_rig()) add_rig(settings, extraction);
   if (extraction.reported) extraction.facts = facts_of(settings.input, extraction.made);
   return extraction;
@@ -261,7 +268,7 @@ void write_files(const ExtractSettings& settings, const Extraction& extraction, 
       write_skeleton(output, skeleton, extraction.reported ? report_text(extraction.facts) : "",
                      settings.root.resolve(made.input.repair.openings));
   }
-  if (extraction.segmentation)
+  if (!settings.segments.empty())
     write_segments(settings.segments, to_polygon_soup(made.result.surface),
                    extraction.segmentation->part_of_face);
   if (!settings.bent.empty()) write_bent(settings, extraction);

@@ -65,7 +65,7 @@ std::unique_ptr<Extraction> extract(const PolygonSoup& soup, const std::string& 
   return watched.run([&] {
     auto extraction = std::make_unique<Extraction>();
     const Stopwatch total;
-    cli::MeshInput input = cli::prepare_mesh(soup, options.run.repair);
+    cli::MeshInput input = cli::prepare_mesh(soup, options.run.repair, options.run.extract.execution);
     extraction->seconds.read = total.seconds();
     extraction->made =
         cli::extract_checked(soup, std::move(input), options.run, cli::CertificateDepth::kVerdict);

@@ -52,11 +52,12 @@ auto watched(const Options& options, Work work) {
 }
 
 std::unique_ptr<Surface> make_surface(const PolygonSoup& soup, const Options& options) {
-  const nb::gil_scoped_release unlocked;
-  const cli::MeshInput input = cli::prepare_mesh(soup, options.run.repair);
-  SurfaceSnapshot snapshot = make_snapshot(input.built.mesh);
-  std::optional<SurfaceSnapshot> outward = orient_shells_outward(snapshot);
-  return std::make_unique<Surface>(outward ? std::move(*outward) : std::move(snapshot));
+  return watched(options, [&](const ExtractOptions& o) {
+    const cli::MeshInput input = cli::prepare_mesh(soup, options.run.repair, o.execution);
+    SurfaceSnapshot snapshot = make_snapshot(input.built.mesh);
+    std::optional<SurfaceSnapshot> outward = orient_shells_outward(snapshot);
+    return std::make_unique<Surface>(outward ? std::move(*outward) : std::move(snapshot));
+  });
 }
 
 std::pair<std::unique_ptr<Surface>, View<Index>> coarsen(const Surface& surface, const Options& options) {

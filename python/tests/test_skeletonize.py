@@ -162,6 +162,14 @@ def test_progress_and_cancelling(quadruped):
     mspskel.skeletonize(quadruped, progress=True)
 
 
+def test_progress_of_mending(quadruped):
+    vertices, faces = quadruped
+    stages = []
+    with pytest.warns(mspskel.SkeletonWarning, match="mended"):
+        mspskel.skeletonize((vertices, faces[:-1]), progress=lambda stage, fraction: stages.append(stage))
+    assert stages[0] == "mending"
+
+
 def test_time_limit():
     with pytest.raises(mspskel.Cancelled, match="the time limit is over"):
         mspskel.skeletonize(mspskel.sample("quadruped", resolution=20000), time_limit=0.01)

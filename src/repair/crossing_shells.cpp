@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "disjoint_sets.h"
+#include "watch.h"
 
 namespace mspskel::detail {
 namespace {
@@ -44,10 +45,11 @@ std::optional<std::array<Vector3, 2>> passage(const SurfaceSnapshot& surface, co
 // Finds shells that lie in one place.
 class Copies {
  public:
-  Copies(const SurfaceSnapshot& surface, const std::vector<Shell>& shells)
-      : surface_(surface), shells_(shells) {}
+  Copies(const SurfaceSnapshot& surface, const std::vector<Shell>& shells, Watch& watch)
+      : surface_(surface), shells_(shells), watch_(watch) {}
 
   bool are_copies(Index c, Index d) {
+    watch_.step();
     const double most = kCopy * std::min(shells_[c].width, shells_[d].width);
     const Shell &one = shells_[c], &other = shells_[d];
     return (one.low - other.low).cwiseAbs().maxCoeff() <= most &&
@@ -60,7 +62,10 @@ class Copies {
 
   bool is_beside(Index c, Index d, double most) {
     const BoundingVolumeHierarchy& walls = walls_.try_emplace(d, surface_, shells_[d].faces).first->second;
-    const auto near = [&](const Vector3& p) { return walls.closest(p, 1.01 * most).distance <= most; };
+    const auto near = [&](const Vector3& p) {
+      watch_.step();
+      return walls.closest(p, 1.01 * most).distance <= most;
+    };
     const auto corner = [&](Index f, Index k) -> const Vector3& {
       return surface_.position[surface_.origin[3 * f + k]];
     };
@@ -72,6 +77,7 @@ class Copies {
 
   const SurfaceSnapshot& surface_;
   const std::vector<Shell>& shells_;
+  Watch& watch_;
   std::map<Index, BoundingVolumeHierarchy> walls_;
 };
 
@@ -83,7 +89,8 @@ class Crossings {
   void run(const ProgressCallback& progress) {
     const std::vector<Index> near = faces_near_others(progress);
     if (near.empty()) return;
-    Copies copies(surface_, shells_);
+    Watch watch(progress, "shells");
+    Copies copies(surface_, shells_, watch);
     for (Index c = 0; c < static_cast<Index>(shells_.size()); ++c)
       for (Index d = 0; d < c; ++d)
         if (groups_.root(c) != groups_.root(d) && copies.are_copies(d, c)) groups_.unite(c, d);
@@ -95,7 +102,7 @@ class Crossings {
     }
     for (const auto& [c, d] : meetings_) {
       report_progress(progress, "shells", 1.0);
-      if (groups_.root(c) != groups_.root(d) && (reaches_into(c, d) || reaches_into(d, c)))
+      if (groups_.root(c) != groups_.root(d) && (reaches_into(c, d, watch) || reaches_into(d, c, watch)))
         groups_.unite(c, d);
     }
   }
@@ -167,9 +174,11 @@ class Crossings {
     return depth_ == CrossingDepth::kDeep ? deep : std::min(deep, kDepthInWidths * shell.width);
   }
 
-  bool reaches_into(Index c, Index d) {
-    return std::any_of(shells_[c].vertices.begin(), shells_[c].vertices.end(),
-                       [&](Index v) { return is_deep(surface_.position[v], c, d); });
+  bool reaches_into(Index c, Index d, Watch& watch) {
+    return std::any_of(shells_[c].vertices.begin(), shells_[c].vertices.end(), [&](Index v) {
+      watch.step();
+      return is_deep(surface_.position[v], c, d);
+    });
   }
 
   const SurfaceSnapshot& surface_;
@@ -209,8 +218,9 @@ std::vector<Shell> shells_of(const SurfaceSnapshot& surface) {
 }
 
 std::vector<Index> without_copies(const SurfaceSnapshot& surface, const std::vector<Shell>& shells,
-                                  const std::vector<Index>& members) {
-  Copies copies(surface, shells);
+                                  const std::vector<Index>& members, const ProgressCallback& progress) {
+  Watch watch(progress, "union of shells");
+  Copies copies(surface, shells, watch);
   std::vector<Index> distinct;
   for (const Index m : members)
     if (std::none_of(distinct.begin(), distinct.end(), [&](Index d) { return copies.are_copies(d, m); }))

@@ -21,7 +21,7 @@ std::vector<Shell> shells_of(const SurfaceSnapshot& surface);
 // The members without those that are copies of one before them: each lies within a small part of its width of
 // the other everywhere.
 std::vector<Index> without_copies(const SurfaceSnapshot& surface, const std::vector<Shell>& shells,
-                                  const std::vector<Index>& members);
+                                  const std::vector<Index>& members, const ProgressCallback& progress);
 
 // See crossing_shells in unite_shells.h. kDeep: whatever the shells' width, as grids do not tell less.
 enum class CrossingDepth { kAny, kDeep };

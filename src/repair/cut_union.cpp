@@ -12,6 +12,7 @@
 #include "disjoint_sets.h"
 #include "face_cutter.h"
 #include "face_set.h"
+#include "watch.h"
 
 namespace mspskel::detail {
 namespace {
@@ -54,11 +55,13 @@ class CutUnion {
   }
 
   std::optional<CutShells> run(const Execution& execution) {
+    Watch watch(execution.progress, "union of shells");
     find_passages(execution);
-    if (!find_segments() || !find_triples()) return std::nullopt;
-    report_progress(execution.progress, "union of shells", 0.5);
-    if (!cut_faces()) return std::nullopt;
-    report_progress(execution.progress, "union of shells", 0.7);
+    watch.ask(0.3);
+    if (!find_segments() || !find_triples(watch)) return std::nullopt;
+    watch.ask(0.5);
+    if (!cut_faces(watch)) return std::nullopt;
+    watch.ask(0.7);
     return outer_pieces(execution);
   }
 
@@ -171,7 +174,7 @@ class CutUnion {
   }
 
   // Points of three faces, found in the first of them.
-  bool find_triples() {
+  bool find_triples(Watch& watch) {
     constexpr double kMostPairs = 3e8;
     double pairs = 0;
     for (const auto& [f, list] : on_face_)
@@ -182,7 +185,7 @@ class CutUnion {
     std::sort(faces.begin(), faces.end());
     cut_faces_ = faces;
     for (const Index f : faces)
-      if (!find_triples_on(f)) return false;
+      if (!find_triples_on(f, watch)) return false;
     for (Segment& s : segments_) {
       const Vector3 from = point_[s.end[0]], way = point_[s.end[1]] - from;
       std::sort(s.between.begin(), s.between.end(), [&](Index a, Index b) {
@@ -192,7 +195,7 @@ class CutUnion {
     }
     return true;
   }
-  bool find_triples_on(Index f) {
+  bool find_triples_on(Index f, Watch& watch) {
     struct Line {
       Index segment, other;
       FaceCutter::Point a, b, low, high;
@@ -211,7 +214,8 @@ class CutUnion {
                        {std::min(a[0], b[0]), std::min(a[1], b[1])},
                        {std::max(a[0], b[0]), std::max(a[1], b[1])}});
     }
-    for (std::size_t i = 0; i < lines.size(); ++i)
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      watch.step();
       for (std::size_t j = i + 1; j < lines.size(); ++j) {
         const Line &s = lines[i], &t = lines[j];
         if (s.high[0] < t.low[0] || t.high[0] < s.low[0] || s.high[1] < t.low[1] || t.high[1] < s.low[1])
@@ -229,10 +233,11 @@ class CutUnion {
         point_.push_back(place);
         for (const Index k : {s.segment, t.segment, third}) segments_[k].between.push_back(point);
       }
+    }
     return true;
   }
 
-  bool cut_faces() {
+  bool cut_faces(Watch& watch) {
     std::unordered_map<Index, std::vector<std::pair<double, Index>>> on_edge;
     for (const Passage& p : passages_) on_edge[p.edge].push_back({p.share, p.point});
     for (auto& [edge, list] : on_edge) std::sort(list.begin(), list.end());
@@ -241,11 +246,12 @@ class CutUnion {
     for (const Index f : group_.faces())
       if (!is_cut[f]) pieces_.push_back({{corner(f, 0), corner(f, 1), corner(f, 2)}, f, {0, 0, 0}});
     for (const Index f : cut_faces_)
-      if (!cut_face(f, on_edge)) return false;
+      if (!cut_face(f, on_edge, watch)) return false;
     return true;
   }
 
-  bool cut_face(Index f, const std::unordered_map<Index, std::vector<std::pair<double, Index>>>& on_edge) {
+  bool cut_face(Index f, const std::unordered_map<Index, std::vector<std::pair<double, Index>>>& on_edge,
+                Watch& watch) {
     const Plane plane = plane_of(f);
     const Vector3 base = point_[corner(f, 0)];
     const auto flat = [&](Index v) { return plane.at(point_[v] - base); };
@@ -269,6 +275,7 @@ class CutUnion {
     }
     const auto add = [&](Index v) {
       if (number.count(v) > 0) return;
+      watch.step();
       cutter.add_within(flat(v));
       add_name(v);
     };
@@ -277,6 +284,7 @@ class CutUnion {
       for (const Index v : segments_[s].between) add(v);
     }
     for (const Index s : on_face_[f]) {
+      watch.step();
       Index from = segments_[s].end[0];
       for (const Index v : segments_[s].between) {
         if (!cutter.keep(number[from], number[v])) return false;
@@ -307,6 +315,7 @@ class CutUnion {
     std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
       return a.ends != b.ends ? a.ends < b.ends : a.piece < b.piece;
     });
+    report_progress(execution.progress, "union of shells", 0.8);
     DisjointSets patches(count);
     for (std::size_t i = 0; i + 1 < sides.size(); ++i)
       if (sides[i].ends == sides[i + 1].ends && !sides[i].cut && !sides[i + 1].cut)
@@ -343,6 +352,7 @@ class CutUnion {
       soup.add_triangle(c[0], c[1], c[2]);
       cut.shell.push_back(shell);
     }
+    report_progress(execution.progress, "union of shells", 0.9);
     if (!is_manifold(soup)) return std::nullopt;
     cut.crossings = crossings();
     return cut;

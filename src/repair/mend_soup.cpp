@@ -15,6 +15,7 @@
 #include "join_touching_pieces.h"
 #include "mspskel/base/error.h"
 #include "pair_faces.h"
+#include "watch.h"
 #include "weld_points.h"
 
 namespace mspskel {
@@ -25,20 +26,28 @@ using detail::HalfedgeEnd;
 
 class Mending {
  public:
-  Mending(const PolygonSoup& soup, const MendOptions& options)
-      : soup_(soup), options_(options), points_(soup.points) {}
+  Mending(const PolygonSoup& soup, const MendOptions& options, const ProgressCallback& progress)
+      : soup_(soup), options_(options), watch_(progress, "mending"), points_(soup.points) {}
 
   MendedSoup run() {
+    watch_.ask(0.0);
     weld();
+    watch_.ask(0.1);
     faces_ = detail::clean_faces(soup_, point_of_, counts().degenerate_faces);
     keep_distinct_faces();
+    watch_.ask(0.2);
     stitch();
+    watch_.ask(0.4);
     faces_ = detail::without_flaps(points_, faces_, counts());
+    watch_.ask(0.5);
     twin_ = detail::pair_faces(points_, faces_, counts());
     wall_count_ = faces_.count();
+    watch_.ask(0.6);
     close_loops();
+    watch_.ask(0.8);
     counts().joined_pieces =
         detail::join_touching_pieces(points_, cancelled_, wall_count_, options_.touching_part, faces_, twin_);
+    watch_.ask(0.9);
     finish();
     return std::move(mended_);
   }
@@ -89,6 +98,7 @@ class Mending {
     counts().stitched_points = detail::weld_near_points(points_, members, reach, point_of_);
     counts().welded_points += counts().stitched_points;
     if (counts().stitched_points == 0) return;
+    watch_.ask(0.3);
     Index degenerate = 0;
     faces_ = detail::clean_faces(soup_, point_of_, degenerate);
     counts().degenerate_faces = degenerate;
@@ -110,7 +120,11 @@ class Mending {
       refuse("the surface has " + std::to_string(loops.size()) + (loops.size() == 1 ? " hole" : " holes") +
              "; close what is open, or let it be closed with --open ends or --open cap");
     std::vector<char> visited(faces_.count(), 0);
-    for (const std::vector<Index>& loop : loops) close(loop, visited);
+    watch_.ask(0.7);
+    for (const std::vector<Index>& loop : loops) {
+      for (std::size_t i = 0; i < loop.size(); ++i) watch_.step();
+      close(loop, visited);
+    }
     counts().holes = static_cast<Index>(loops.size());
     counts().hole_faces = faces_.count() - wall_count_;
   }
@@ -163,8 +177,10 @@ class Mending {
     const std::vector<char> keep =
         detail::faces_to_keep(points_, faces_, twin_, wall_count_, options_, counts());
     if (std::find(keep.begin(), keep.end(), 1) == keep.end()) refuse_without_volume();
+    watch_.ask(0.95);
     std::vector<Index> vertex_of_added;
     detail::make_vertices(points_, faces_, twin_, keep, soup_, point_of_, mended_, vertex_of_added);
+    watch_.ask(1.0);
     place_openings(vertex_of_added);
   }
 
@@ -205,6 +221,7 @@ class Mending {
 
   const PolygonSoup& soup_;
   const MendOptions& options_;
+  detail::Watch watch_;
   std::vector<Vector3> points_;  // those of the soup, then centres of caps
   std::vector<Index> point_of_;
   std::vector<char> used_;
@@ -235,10 +252,10 @@ void validate(const MendOptions& options) {
     throw UsageError("a touching part must be from 0 to 1 of what it touches");
 }
 
-MendedSoup mend_soup(const PolygonSoup& soup, const MendOptions& options) {
+MendedSoup mend_soup(const PolygonSoup& soup, const MendOptions& options, const ProgressCallback& progress) {
   validate(options);
   check_ranges(soup);
-  return Mending(soup, options).run();
+  return Mending(soup, options, progress).run();
 }
 
 }  // namespace mspskel

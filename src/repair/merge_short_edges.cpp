@@ -29,8 +29,10 @@ SurfaceSnapshot snapshot_of(const PolygonSoup& soup) {
 
 }  // namespace
 
-PolygonSoup without_short_edges(const PolygonSoup& soup, double length) {
+PolygonSoup without_short_edges(const PolygonSoup& soup, double length, Watch& watch) {
+  watch.ask();
   const SurfaceSnapshot surface = snapshot_of(soup);
+  watch.ask();
   CoarseningOptions options;
   options.component_vertices = 4;
   options.least_shape = 0;  // what is cut into slivers keeps some until the last short edge is merged
@@ -43,11 +45,15 @@ PolygonSoup without_short_edges(const PolygonSoup& soup, double length) {
     for (Index h = 0; h < mesh.halfedge_count(); ++h)
       if (mesh.is_edge(h) && mesh.edge_length(h) < longest) edges.emplace_back(mesh.edge_length(h), h);
     std::sort(edges.begin(), edges.end());
+    watch.ask();
     mesh.start_pass();
-    for (const auto& [shortest, h] : edges)
+    for (const auto& [shortest, h] : edges) {
+      watch.step();
       if (mesh.is_edge(h) && !mesh.moved(h)) mesh.collapse(h);
+    }
     if (mesh.sparse()) mesh.compact();
   }
+  watch.ask();
   CoarseSurface merged;
   mesh.finish(merged);
   PolygonSoup result;

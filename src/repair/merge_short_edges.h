@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mspskel/mesh/polygon_soup.h"
+#include "watch.h"
 
 namespace mspskel::detail {
 
@@ -11,6 +12,6 @@ constexpr double kShortEdge = 0.6;
 // The closed, manifold triangles with edges shorter than `length` merged into their best points (as
 // coarsen_surface places them), the shortest first, where the surface stays manifold, of the same genus and
 // unfolded. O(n log n).
-PolygonSoup without_short_edges(const PolygonSoup& soup, double length);
+PolygonSoup without_short_edges(const PolygonSoup& soup, double length, Watch& watch);
 
 }  // namespace mspskel::detail

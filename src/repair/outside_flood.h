@@ -10,6 +10,7 @@
 
 #include "dense_grid.h"
 #include "soup_walls.h"
+#include "watch.h"
 
 namespace mspskel::detail {
 
@@ -21,12 +22,13 @@ struct Distances {
 // Every node gets the nearest of the sources that reach it over neighbours: exact beside a source, and within
 // a small part of a cell elsewhere. distance(node, source), in cells.
 template <class Distance>
-void spread(const DenseGrid& grid, double limit, Distance distance, Distances& distances) {
+void spread(const DenseGrid& grid, double limit, Distance distance, Distances& distances, Watch& watch) {
   using Entry = std::pair<float, Index>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
   for (Index n = 0; n < grid.count(); ++n)
     if (distances.source[n] != kNone) front.emplace(distances.value[n], n);
   while (!front.empty()) {
+    watch.step();
     const auto [value, node] = front.top();
     front.pop();
     if (value > distances.value[node]) continue;
@@ -46,8 +48,8 @@ void spread(const DenseGrid& grid, double limit, Distance distance, Distances& d
 class OutsideFlood {
  public:
   // Lengths in model units.
-  OutsideFlood(const SoupWalls& walls, double cell, double wall, double largest_radius)
-      : shape_(walls), wall_(wall / cell), largest_ball_(largest_radius / cell) {
+  OutsideFlood(const SoupWalls& walls, double cell, double wall, double largest_radius, Watch& watch)
+      : shape_(walls), watch_(watch), wall_(wall / cell), largest_ball_(largest_radius / cell) {
     const Vector3 room = Vector3::Constant(cell * 3 + wall + largest_radius);
     // Not a whole number of cells from the box, so that plane walls do not fall on nodes.
     grid_ = DenseGrid(walls.low - room - Vector3(0.37, 0.53, 0.71) * cell, walls.high + room, cell);
@@ -69,11 +71,12 @@ class OutsideFlood {
         std::count_if(reach_.value.begin(), reach_.value.end(), [&](float d) { return d > ball_; }));
   }
   // Of what the last ball does not reach: what a larger ball fills that has place there, walls left out.
-  double room_cells(double radius) const {
+  double room_cells(double radius) {
     const double ball = radius / grid_.side();
     const auto reach = static_cast<Index>(ball);
     std::vector<char> in_room(walls_.value.size(), 0);
     for (Index n = 0; n < grid_.count(); ++n) {
+      watch_.step();
       if (reach_.value[n] <= ball_ || walls_.value[n] < wall_ + ball) continue;
       each_near(n, reach, [&](Index near, double squared) {
         if (squared <= ball * ball && reach_.value[near] > ball_) in_room[near] = 1;
@@ -103,6 +106,7 @@ class OutsideFlood {
     walls_.value.assign(count, std::numeric_limits<float>::infinity());
     walls_.source.assign(count, kNone);
     for (Index f = 0; f < shape_.faces.count(); ++f) {
+      watch_.step();
       const Triangle t = shape_.triangle(f);
       const Vector3 low = t.a.cwiseMin(t.b).cwiseMin(t.c), high = t.a.cwiseMax(t.b).cwiseMax(t.c);
       std::array<Index, 3> from{}, to{};
@@ -113,7 +117,8 @@ class OutsideFlood {
       mark_near(t, f, from, to);
     }
     spread(
-        grid_, wall_ + largest_ball_ + 2, [&](Index n, Index f) { return distance_to_face(n, f); }, walls_);
+        grid_, wall_ + largest_ball_ + 2, [&](Index n, Index f) { return distance_to_face(n, f); }, walls_,
+        watch_);
   }
   double distance_to_face(Index node, Index f) const {
     const Vector3 p = grid_.place(node);
@@ -150,6 +155,7 @@ class OutsideFlood {
     std::vector<Index> waiting{0};
     reached[0] = 1;
     while (!waiting.empty()) {
+      watch_.step();
       const Index node = waiting.back();
       waiting.pop_back();
       grid_.each_neighbour(node, [&](Index next) {
@@ -162,6 +168,7 @@ class OutsideFlood {
     reach_.source.assign(walls_.value.size(), kNone);
     for (Index n = 0; n < grid_.count(); ++n) {
       if (!reached[n]) continue;
+      watch_.step();
       reach_.value[n] = static_cast<float>(-surplus(n));
       bool at_front = false;
       grid_.each_neighbour(n, [&](Index next) { at_front = at_front || !reached[next]; });
@@ -172,7 +179,7 @@ class OutsideFlood {
         [&](Index n, Index source) {
           return (grid_.place(n) - grid_.place(source)).norm() / grid_.side() - surplus(source);
         },
-        reach_);
+        reach_, watch_);
   }
   // How much farther the walls are than the ball needs, up to the distance that is measured.
   double surplus(Index node) const {
@@ -180,6 +187,7 @@ class OutsideFlood {
   }
 
   const SoupWalls& shape_;
+  Watch& watch_;
   DenseGrid grid_;
   double wall_, largest_ball_, ball_ = 0;  // half the thickness, radii; in cells
   Distances walls_, reach_;

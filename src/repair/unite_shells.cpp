@@ -17,6 +17,7 @@
 #include "mspskel/mesh/build_mesh.h"
 #include "shell_grid.h"
 #include "split_long_edges.h"
+#include "watch.h"
 #include "whole_pieces.h"
 
 namespace mspskel {
@@ -25,7 +26,10 @@ namespace {
 using detail::InflatedShells;
 using detail::Shell;
 using detail::ShellGroup;
+using detail::Watch;
 using detail::WholePieces;
+
+constexpr const char* kUnionStage = "union of shells";
 
 // The way through the shell's solid that is longer from nine of ten of its vertices: limbs are thinner than
 // most.
@@ -51,15 +55,17 @@ struct Fineness {
   bool asked = false;    // by the options
 };
 
-Fineness fineness_for(const ShellGroup& group, const UniteOptions& options) {
+Fineness fineness_for(const ShellGroup& group, const UniteOptions& options, const Watch& watch) {
   constexpr double kCoarsest = 0.01, kFinest = 0.001, kCellsAcross = 3, kNodesACell = 6, kThinnest = 1e-4;
   // Few faces tell of few details.
   constexpr double kNodesAFace = 20, kFewestNodes = 6e4, kMostNodes = 3e5;
   const double extent = (group.high() - group.low()).norm();
   Fineness result;
-  for (std::size_t i = 0; i < group.size(); ++i)
+  for (std::size_t i = 0; i < group.size(); ++i) {
+    watch.ask();
     result.thickness.push_back(
         std::max(kThinnest * extent, thickness(group.surface(), group.shell(i), group.solid(i))));
+  }
   result.thinnest = *std::min_element(result.thickness.begin(), result.thickness.end());
   const double wanted = result.thinnest / kCellsAcross;
   result.cell = options.cell * extent;
@@ -117,11 +123,12 @@ class Union {
   void sample(const Execution& execution) {
     if (best_) return;
     const double cell = fineness_.cell;
+    Watch watch(execution.progress, kUnionStage);
     // Where shells nearly touch, their own triangles leave handles that a margin closes.
     for (const double margin : {0.0, 0.5 * std::sqrt(3.0) * cell}) {
       WholePieces pieces = detail::without_crumbs(detail::boundary_of_union(group_, cell, margin, execution));
       if (pieces.genus <= most_ && is_better(pieces)) {
-        pieces.soup = detail::without_short_edges(pieces.soup, detail::kShortEdge * cell);
+        pieces.soup = detail::without_short_edges(pieces.soup, detail::kShortEdge * cell, watch);
         best_ = std::move(pieces);
         is_cut_ = false;
       }
@@ -149,7 +156,10 @@ class Union {
     constexpr double kPocket = 0.01;    // hollows that parts leave between them
     std::optional<detail::CutShells> cut = detail::cut_union(group, execution);
     if (!cut) return;
+    Watch watch(execution.progress, kUnionStage);
+    watch.ask(1.0);
     split_along(*cut, fineness_.thickness, static_cast<Index>(group.faces().size()));
+    watch.ask(1.0);
     WholePieces pieces = detail::without_crumbs(cut->soup, kPocket);
     // A tree of crossings closes no handle, each further pair may close one.
     const std::size_t further = cut->crossings + 1 - std::min(cut->crossings + 1, group.size());
@@ -157,7 +167,8 @@ class Union {
     most_ = std::max(most_, own_ + static_cast<Index>(made));
     if (pieces.genus > most_ || !is_better(pieces)) return;
     pieces.soup = detail::without_short_edges(
-        pieces.soup, std::max(10 * detail::kShellShift, kShortest * fineness_.thinnest));
+        pieces.soup, std::max(10 * detail::kShellShift, kShortest * fineness_.thinnest), watch);
+    watch.ask(1.0);
     if (!has_separate_points(pieces.soup)) return;
     best_ = std::move(pieces);
     is_cut_ = true;
@@ -212,12 +223,13 @@ class Uniting {
       united_.soup.add_triangle(first + pieces.soup.corners[i], first + pieces.soup.corners[i + 1],
                                 first + pieces.soup.corners[i + 2]);
     const SurfaceSnapshot part = make_snapshot(build_mesh(pieces.soup));
+    report_progress(execution.progress, kUnionStage, 1.0);
     const BoundingVolumeHierarchy tree(part);
     for (const Index m : members) {
       united_.replaced[m] = true;
       const std::vector<Index>& vertices = shells_[m].vertices;
       parallel_for(
-          static_cast<Index>(vertices.size()), "union of shells", execution, [] { return 0; },
+          static_cast<Index>(vertices.size()), kUnionStage, execution, [] { return 0; },
           [&](Index i, int&) {
             united_.vertex_of[vertices[i]] =
                 first + nearest_vertex(part, tree, part.frame.to_normalised(surface_.position[vertices[i]]));
@@ -275,7 +287,8 @@ class Groups {
  private:
   // Where the cut fails, shells that cross less than a grid can tell stay apart.
   void unite(const std::vector<Index>& members, bool may_part) {
-    const std::vector<Index> distinct = detail::without_copies(surface_, shells_, members);
+    const std::vector<Index> distinct =
+        detail::without_copies(surface_, shells_, members, execution_.progress);
     if (distinct.size() == 1) {
       uniting_.replace(members, own_faces(surface_, shells_[distinct[0]]), {}, execution_);
       return;
@@ -283,7 +296,7 @@ class Groups {
     Index own = 0;
     for (const Index m : distinct) own += (4 - euler_[m]) / 4;
     const ShellGroup group(surface_, shells_, distinct, execution_);
-    const Fineness fineness = fineness_for(group, options_);
+    const Fineness fineness = fineness_for(group, options_, Watch(execution_.progress, kUnionStage));
     Union one(group, own, fineness);
     if (!fineness.asked) one.cut(inflated_, distinct, execution_);
     if (!one.found() && may_part) {

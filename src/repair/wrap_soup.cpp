@@ -9,6 +9,7 @@
 #include "outside_flood.h"
 #include "point_tree.h"
 #include "tetrahedron_cutter.h"
+#include "watch.h"
 #include "whole_pieces.h"
 
 namespace mspskel {
@@ -42,10 +43,10 @@ Scale scale_for(double gap, double finest_cell) {
 class Telling {
  public:
   // filled: model units cubed.
-  Telling(const SoupWalls& walls, double filled, double largest_gap)
+  Telling(const SoupWalls& walls, double filled, double largest_gap, detail::Watch& watch)
       : extent_(walls.extent),
         filled_(filled / std::pow(kTellingCell * walls.extent, 3)),
-        flood_(walls, kTellingCell * extent_, kToldWall * extent_, radius(largest_gap)) {}
+        flood_(walls, kTellingCell * extent_, kToldWall * extent_, radius(largest_gap), watch) {}
 
   // In cells: what is shut in beside the walls, and what closed shells fill.
   double enclosed(double gap) {
@@ -73,9 +74,9 @@ class Telling {
 
 // The least scale that encloses half of what the largest does; walls alone tell nothing. What only the
 // largest closes may be a valley, of which a larger ball leaves out still more.
-Scale told_scale(const SoupWalls& walls) {
+Scale told_scale(const SoupWalls& walls, detail::Watch& watch) {
   constexpr double kSteady = 0.8;
-  Telling telling(walls, 0, kLargestGap);
+  Telling telling(walls, 0, kLargestGap, watch);
   const double most = telling.enclosed(kLargestGap);
   double gap = kLeastGap;
   if (most > telling.walls())
@@ -83,25 +84,25 @@ Scale told_scale(const SoupWalls& walls) {
   Scale chosen = scale_for(gap, kFinestToldCell);
   chosen.encloses = most > telling.walls();
   if (chosen.encloses && gap == kLargestGap)
-    chosen.encloses = most > kSteady * Telling(walls, 0, 2 * kLargestGap).enclosed(2 * kLargestGap);
+    chosen.encloses = most > kSteady * Telling(walls, 0, 2 * kLargestGap, watch).enclosed(2 * kLargestGap);
   return chosen;
 }
 
 // Shells are walls where the least gap shuts in rooms of more than they fill, beside what they fill. The
 // nooks between shells that are hardly wider than the gap are none.
-Scale scale_of_shells(const SoupWalls& walls, double filled) {
-  Telling telling(walls, filled, kRoom * kLeastGap);
+Scale scale_of_shells(const SoupWalls& walls, double filled, detail::Watch& watch) {
+  Telling telling(walls, filled, kRoom * kLeastGap, watch);
   Scale scale = scale_for(kLeastGap, kFinestToldCell);
   scale.encloses = telling.rooms(kLeastGap, kRoom * kLeastGap) > telling.filled();
   return scale;
 }
 
-Scale scale_of(const SoupWalls& walls, const WrapOptions& options) {
+Scale scale_of(const SoupWalls& walls, const WrapOptions& options, detail::Watch& watch) {
   if (options.gap > 0) return scale_for(options.gap, kFinestCell);
-  return options.filled > 0 ? scale_of_shells(walls, options.filled) : told_scale(walls);
+  return options.filled > 0 ? scale_of_shells(walls, options.filled, watch) : told_scale(walls, watch);
 }
 
-PolygonSoup surface_of(const OutsideFlood& flood) {
+PolygonSoup surface_of(const OutsideFlood& flood, detail::Watch& watch) {
   const DenseGrid& grid = flood.grid();
   detail::TetrahedronCutter cutter(flood, static_cast<std::uint64_t>(grid.count()));
   for (Index z = 0; z + 1 < grid.size(2); ++z)
@@ -109,6 +110,7 @@ PolygonSoup surface_of(const OutsideFlood& flood) {
       for (Index x = 0; x + 1 < grid.size(0); ++x) {
         std::array<Index, 8> corner{};
         for (int k = 0; k < 8; ++k) corner[k] = grid.node(x + (k & 1), y + (k >> 1 & 1), z + (k >> 2 & 1));
+        watch.step();
         cutter.cut_cube(corner);
       }
   return cutter.take();
@@ -127,7 +129,8 @@ Index nearest(const PolygonSoup& surface, const detail::PointTree& tree, const V
   return best;
 }
 
-std::vector<Index> nearest_vertices(const PolygonSoup& soup, const WrappedSoup& wrapped) {
+std::vector<Index> nearest_vertices(const PolygonSoup& soup, const WrappedSoup& wrapped,
+                                    detail::Watch& watch) {
   std::vector<char> used(soup.points.size(), 0);
   for (const Index v : soup.corners)
     if (v >= 0 && v < static_cast<Index>(used.size())) used[v] = soup.points[v].allFinite();
@@ -135,8 +138,10 @@ std::vector<Index> nearest_vertices(const PolygonSoup& soup, const WrappedSoup& 
   for (std::size_t v = 0; v < all.size(); ++v) all[v] = static_cast<Index>(v);
   const detail::PointTree tree(wrapped.soup.points, all);
   std::vector<Index> vertex_of_point(soup.points.size(), kNone);
-  for (std::size_t p = 0; p < used.size(); ++p)
+  for (std::size_t p = 0; p < used.size(); ++p) {
+    watch.step();
     if (used[p]) vertex_of_point[p] = nearest(wrapped.soup, tree, soup.points[p], wrapped.cell);
+  }
   return vertex_of_point;
 }
 
@@ -150,25 +155,27 @@ void validate(const WrapOptions& options) {
 
 WrappedSoup wrap_soup(const PolygonSoup& soup, const WrapOptions& options, const Execution& execution) {
   validate(options);
-  const auto step = [&](double fraction) { report_progress(execution.progress, "wrapping", fraction); };
-  step(0.0);
+  detail::Watch watch(execution.progress, "wrapping");
+  watch.ask(0.0);
   const SoupWalls walls(soup);
-  const Scale scale = scale_of(walls, options);
+  watch.ask(0.1);
+  const Scale scale = scale_of(walls, options, watch);
   WrappedSoup wrapped;
   wrapped.encloses = scale.encloses;
   if (!scale.encloses && !options.thicken_walls) return wrapped;
-  step(0.2);
+  watch.ask(0.2);
   wrapped.cell = scale.cell * walls.extent;
   wrapped.gap = scale.gap * walls.extent;
-  OutsideFlood flood(walls, wrapped.cell, kWall * wrapped.cell, wrapped.gap / 2);
-  step(0.6);
+  OutsideFlood flood(walls, wrapped.cell, kWall * wrapped.cell, wrapped.gap / 2, watch);
+  watch.ask(0.6);
   flood.run(wrapped.gap / 2);
-  step(0.8);
-  detail::WholePieces pieces = detail::without_crumbs(surface_of(flood));
+  watch.ask(0.8);
+  detail::WholePieces pieces = detail::without_crumbs(surface_of(flood, watch));
   wrapped.small_components = pieces.crumbs;
   wrapped.solids = pieces.solids;
-  wrapped.soup = detail::without_short_edges(pieces.soup, detail::kShortEdge * wrapped.cell);
-  wrapped.vertex_of_point = nearest_vertices(soup, wrapped);
+  wrapped.soup = detail::without_short_edges(pieces.soup, detail::kShortEdge * wrapped.cell, watch);
+  watch.ask(0.9);
+  wrapped.vertex_of_point = nearest_vertices(soup, wrapped, watch);
   return wrapped;
 }
 

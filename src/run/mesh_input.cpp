@@ -12,10 +12,11 @@
 namespace mspskel::cli {
 namespace {
 
-MeshInput mend(const PolygonSoup& soup, const RepairSettings& settings) {
+MeshInput mend(const PolygonSoup& soup, const RepairSettings& settings, const ProgressCallback& progress) {
   MeshInput input;
   input.mended = true;
-  input.repair = mend_soup(soup, settings.options);
+  input.repair = mend_soup(soup, settings.options, progress);
+  report_progress(progress, "mending", 1.0);
   input.built = build_mesh_with_report(input.repair.soup);
   const std::string done = summary(input.repair);
   if (!done.empty()) input.built.warnings.insert(input.built.warnings.begin(), "mended: " + done);
@@ -104,7 +105,7 @@ void join_shells(MeshInput& input, const PolygonSoup& soup, const RepairSettings
   if (input.built.component_count < 2) return;
   SurfaceSnapshot surface = make_snapshot(input.built.mesh);
   if (settings.repair && !input.mended && has_repeated_shells(surface)) {
-    input = mend(soup, settings);
+    input = mend(soup, settings, execution.progress);
     surface = make_snapshot(input.built.mesh);
   }
   const std::vector<std::vector<Index>> groups = crossing_shells(surface, execution);
@@ -207,12 +208,12 @@ MeshInput prepare_mesh(const PolygonSoup& soup, const RepairSettings& settings, 
   } else if (!settings.repair) {
     input.built = build_mesh_with_report(soup);
   } else if (wants_more) {
-    input = mend(soup, settings);
+    input = mend(soup, settings, execution.progress);
   } else {
     try {
       input.built = build_mesh_with_report(soup);
     } catch (const MeshError&) {
-      input = mend(soup, settings);
+      input = mend(soup, settings, execution.progress);
     }
   }
   if (settings.wrap_mode == WrapMode::kAuto && is_guesswork(input.repair.counts)) {

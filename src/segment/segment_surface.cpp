@@ -1,6 +1,7 @@
 #include "mspskel/segment/segment_surface.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -12,6 +13,8 @@
 
 namespace mspskel {
 namespace {
+
+constexpr const char* kPartsStage = "parts";
 
 // Of each face: what two of its corners agree on, else its first corner's part.
 std::vector<Index> carry_to_faces(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton,
@@ -94,10 +97,12 @@ double smallest_part(const SegmentOptions& options) {
 class Segmenter {
  public:
   Segmenter(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton,
-            const std::vector<NodeContact>& contacts, const SegmentOptions& options)
+            const std::vector<NodeContact>& contacts, const SegmentOptions& options,
+            const ProgressCallback& progress)
       : surface_(surface),
         skeleton_(skeleton),
         options_(options),
+        progress_(progress),
         contacts_(contacts),
         costs_(border_costs(surface, options.creases)) {}
 
@@ -124,14 +129,17 @@ class Segmenter {
   SkeletonParts cut_skeleton(Index count) const {
     PartOptions options = options_.parts;
     options.count = count;
+    report_progress(progress_, kPartsStage, 0.2);
     return find_parts(skeleton_, contacts_, options);
   }
   // With smooth borders, and connected.
   std::vector<Index> carried(const SkeletonParts& parts) {
+    report_progress(progress_, kPartsStage, 0.3);
     std::vector<Index> part = carry_to_faces(surface_, skeleton_, parts.part_of_node);
     lost_ = lost_ || !has_all(part, parts.count);
     connect_parts(surface_, part);
-    smooth_borders(surface_, costs_, part, options_.border_width);
+    smooth_borders(surface_, costs_, part, options_.border_width, std::numeric_limits<double>::infinity(),
+                   progress_);
     connect_parts(surface_, part, smallest_part(options_));
     return part;
   }
@@ -139,12 +147,14 @@ class Segmenter {
     CreasePartOptions options = options_.crease_parts;
     options.most = options_.parts.count;
     options.least = least;
+    report_progress(progress_, kPartsStage, 0.4);
     split_at_creases(surface_, costs_, part, options);
   }
 
   const SurfaceSnapshot& surface_;
   const CurveSkeleton& skeleton_;
   const SegmentOptions& options_;
+  const ProgressCallback& progress_;
   const std::vector<NodeContact>& contacts_;
   const std::vector<double> costs_;
   bool lost_ = false;
@@ -164,31 +174,37 @@ double mean_edge_length(const SurfaceSnapshot& surface) {
 std::vector<Index> parts_by_coarse_surface(const SurfaceSnapshot& surface, const CoarseSurface& coarse,
                                            const CurveSkeleton& skeleton,
                                            const std::vector<NodeContact>& contacts,
-                                           const SegmentOptions& options) {
+                                           const SegmentOptions& options, const ProgressCallback& progress) {
   const CurveSkeleton carried = detail::on_coarse_surface(surface, coarse, skeleton);
-  Segmenter segmenter(coarse.surface, carried, contacts, options);
+  Segmenter segmenter(coarse.surface, carried, contacts, options, progress);
   const std::vector<Index> found = segmenter.run();
   const Index count = count_of(found);
   if (segmenter.lost_part() || count < options.parts.count) return {};
+  report_progress(progress, kPartsStage, 0.5);
   auto [part, near_border] = detail::carried_to_input(surface, coarse, found);
   if (!has_all(part, count)) return {};
+  report_progress(progress, kPartsStage, 0.6);
   smooth_borders(surface, border_costs(surface, options.creases, near_border), part, options.border_width,
-                 kSettling * mean_edge_length(coarse.surface));
+                 kSettling * mean_edge_length(coarse.surface), progress);
+  report_progress(progress, kPartsStage, 0.8);
   connect_parts(surface, part, smallest_part(options));
   return part;
 }
 
 std::vector<Index> find_parts_of_faces(const SurfaceSnapshot& surface, const CoarseSurface* coarse,
-                                       const CurveSkeleton& skeleton, const SegmentOptions& options) {
+                                       const CurveSkeleton& skeleton, const SegmentOptions& options,
+                                       const ProgressCallback& progress) {
+  report_progress(progress, kPartsStage, 0.0);
   const std::vector<NodeContact> contacts = node_contacts(surface, skeleton);
   std::optional<CoarseSurface> made;
   if (coarse == nullptr && surface.vertex_count() > options.coarsening.vertices)
-    coarse = &made.emplace(coarsen_surface(surface, options.coarsening));
+    coarse = &made.emplace(coarsen_surface(surface, options.coarsening, {0, progress}));
   if (coarse != nullptr) {
-    std::vector<Index> part = parts_by_coarse_surface(surface, *coarse, skeleton, contacts, options);
+    std::vector<Index> part =
+        parts_by_coarse_surface(surface, *coarse, skeleton, contacts, options, progress);
     if (!part.empty()) return part;
   }
-  return Segmenter(surface, skeleton, contacts, options).run();
+  return Segmenter(surface, skeleton, contacts, options, progress).run();
 }
 
 }  // namespace
@@ -233,13 +249,15 @@ std::vector<NodeContact> node_contacts(const SurfaceSnapshot& surface, const Cur
 }
 
 Segmentation segment_surface(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton,
-                             const SegmentOptions& options, const CoarseSurface* coarse) {
+                             const SegmentOptions& options, const CoarseSurface* coarse,
+                             const ProgressCallback& progress) {
   validate(options.parts);
   validate(options.crease_parts);
   if (coarse != nullptr && static_cast<Index>(coarse->coarse_vertex.size()) != surface.vertex_count())
     throw UsageError("parts: the coarse surface is another one's");
   Segmentation segmentation;
-  segmentation.part_of_face = find_parts_of_faces(surface, coarse, skeleton, options);
+  segmentation.part_of_face = find_parts_of_faces(surface, coarse, skeleton, options, progress);
+  report_progress(progress, kPartsStage, 0.9);
   segmentation.count = count_of(segmentation.part_of_face);
   const std::vector<double> area = face_areas(surface);
   number_by_area(area, segmentation);

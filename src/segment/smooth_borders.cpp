@@ -25,11 +25,12 @@ class BorderSmoother {
         most_(most),
         place_(part_of_face.size(), kNone) {}
 
-  void run() {
+  void run(const ProgressCallback& progress) {
     for (Index h = 0; h < surface_.halfedge_count(); ++h)
       if (h < surface_.twin[h]) note(h);
     for (auto& [parts, border] : borders_) {
       const auto [a, b] = parts;
+      report_progress(progress, "parts", 0.7);
       std::sort(border.begin(), border.end());
       border.erase(std::unique(border.begin(), border.end()), border.end());
       border.erase(
@@ -183,10 +184,11 @@ std::vector<char> lasting_pieces(const SurfaceSnapshot& surface, const Pieces& p
 }  // namespace
 
 void smooth_borders(const SurfaceSnapshot& surface, const std::vector<double>& costs,
-                    std::vector<Index>& part_of_face, double width, double most) {
+                    std::vector<Index>& part_of_face, double width, double most,
+                    const ProgressCallback& progress) {
   if (!(width >= 0 && width <= 10)) throw UsageError("borders: width must be from 0 to 10");
   if (!(most >= 0)) throw UsageError("borders: most must not be negative");
-  if (width > 0 && most > 0) BorderSmoother(surface, costs, part_of_face, width, most).run();
+  if (width > 0 && most > 0) BorderSmoother(surface, costs, part_of_face, width, most).run(progress);
 }
 
 void connect_parts(const SurfaceSnapshot& surface, std::vector<Index>& part_of_face, double smallest) {

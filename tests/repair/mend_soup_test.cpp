@@ -449,3 +449,22 @@ TEST_CASE("whatever comes out of a random soup is closed and manifold, on distin
     REQUIRE_THAT(error.what(), Contains("no volume") || Contains("no face with an area"));
   }
 }
+
+TEST_CASE("mending asks whether to stop before each step and while it closes holes, and stops") {
+  SampleOptions options;
+  options.resolution = 4000;
+  const PolygonSoup sphere = make_sample("sphere", options);
+  PolygonSoup pierced;
+  pierced.points = sphere.points;
+  for (std::size_t f = 0; f < sphere.polygon_count(); ++f)
+    if (f % 7 != 0)
+      pierced.add_triangle(sphere.corners[3 * f], sphere.corners[3 * f + 1], sphere.corners[3 * f + 2]);
+  int asked = 0;
+  (void)mend_soup(pierced, {}, [&](const char*, double) { return ++asked > 0; });
+  CHECK(asked > 10);
+  for (int last = 1; last <= asked; ++last) {
+    int again = 0;
+    CHECK_THROWS_AS(mend_soup(pierced, {}, [&](const char*, double) { return ++again < last; }), Cancelled);
+    CHECK(again == last);
+  }
+}

@@ -320,3 +320,28 @@ TEST_CASE("the union does not depend on the threads, and options are checked") {
   options.cell = 0.2;
   CHECK_THROWS_AS(validate(options), UsageError);
 }
+
+TEST_CASE("shells in one place or that meet in many faces ask more often whether to stop, and stop") {
+  int asked[2][2] = {};  // while crossings are looked for, while shells are united
+  for (const int k : {0, 1}) {
+    SampleOptions options;
+    options.resolution = k == 0 ? 1000 : 8000;
+    const PolygonSoup ball = make_sample("sphere", options);
+    const PolygonSoup balls = together({ball, shifted(ball, {1e-5, 0, 0}), shifted(ball, {0, 0, 0.5})});
+    const SurfaceSnapshot surface = make_snapshot(build_mesh(balls));
+    Execution execution;
+    execution.threads = 1;
+    execution.progress = [&](const char*, double) { return ++asked[k][0] > 0; };
+    const std::vector<std::vector<Index>> groups = crossing_shells(surface, execution);
+    REQUIRE(groups.size() == 1);
+    execution.progress = [&](const char*, double) { return ++asked[k][1] > 0; };
+    (void)unite_shells(surface, groups, {}, execution);
+    int again = 0;
+    execution.progress = [&](const char*, double) { return ++again < asked[k][1]; };
+    CHECK_THROWS_AS(unite_shells(surface, groups, {}, execution), Cancelled);
+    CHECK(again == asked[k][1]);
+  }
+  // Every vertex and face of the copies is looked at.
+  CHECK(asked[1][0] > 40);
+  CHECK(asked[1][1] > 4 * asked[0][1]);
+}

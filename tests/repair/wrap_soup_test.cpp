@@ -245,3 +245,22 @@ TEST_CASE("What cannot be wrapped is refused") {
   options.filled = -1;
   CHECK_THROWS_AS(wrap_soup(nothing, options), UsageError);
 }
+
+TEST_CASE("a finer wrap asks more often whether to stop, and stops") {
+  const PolygonSoup soup = loose_faces("sphere", 2000, 0.2);
+  int asked[2] = {0, 0};
+  for (const int k : {0, 1}) {
+    WrapOptions options;
+    options.gap = k == 0 ? 0.08 : 0.02;
+    Execution execution;
+    execution.progress = [&](const char*, double) { return ++asked[k] > 0; };
+    (void)wrap_soup(soup, options, execution);
+  }
+  CHECK(asked[0] > 20);
+  CHECK(asked[1] > 4 * asked[0]);
+  Execution execution;
+  int again = 0;
+  execution.progress = [&](const char*, double) { return ++again < asked[0] / 2; };
+  CHECK_THROWS_AS(wrap_soup(soup, {}, execution), Cancelled);
+  CHECK(again == asked[0] / 2);
+}

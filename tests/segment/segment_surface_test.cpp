@@ -322,3 +322,16 @@ TEST_CASE("how thick a limb is does not depend on the body that it leaves") {
   for (Index n = 0; n < 13; ++n) CHECK(section[n] == Approx(3));
   for (Index n = 13; n < 21; ++n) CHECK(section[n] == Approx(1));
 }
+
+TEST_CASE("parts ask whether to stop before each border, and stop") {
+  const Shape quadruped = sample("quadruped");
+  int asked = 0;
+  const Segmentation parts = segment_surface(quadruped.surface, quadruped.skeleton, {}, nullptr,
+                                             [&](const char*, double) { return ++asked > 0; });
+  CHECK(asked > parts.count);
+  int again = 0;
+  CHECK_THROWS_AS(segment_surface(quadruped.surface, quadruped.skeleton, {}, nullptr,
+                                  [&](const char*, double) { return ++again < asked; }),
+                  Cancelled);
+  CHECK(again == asked);
+}

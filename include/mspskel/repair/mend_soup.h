@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mspskel/base/error.h"
+#include "mspskel/base/progress.h"
 #include "mspskel/mesh/polygon_soup.h"
 #include "mspskel/repair/opening.h"
 
@@ -83,8 +84,10 @@ struct MendError : MeshError {
 // and its centre sees all of it where the notches between the teeth of a ragged end are filled.
 // A closed, manifold surface comes through with its vertices and triangles, apart from crumbs.
 // Throws MendError if nothing that encloses a volume is left, saying why and what would help, or if there is
-// a loop and open is kFail. Cost: O(n log n); a loop of n edges takes n³ up to 128 edges, n log n beyond.
-MendedSoup mend_soup(const PolygonSoup& soup, const MendOptions& options = {});
+// a loop and open is kFail; Cancelled. Cost: O(n log n); a loop of n edges takes n³ up to 128 edges, n log n
+// beyond.
+MendedSoup mend_soup(const PolygonSoup& soup, const MendOptions& options = {},
+                     const ProgressCallback& progress = {});
 
 // One sentence that sums up what was done; empty if nothing was.
 std::string summary(const MendedSoup& mended);

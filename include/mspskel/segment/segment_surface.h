@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "mspskel/base/progress.h"
 #include "mspskel/mesh/coarsen_surface.h"
 #include "mspskel/mesh/surface_snapshot.h"
 #include "mspskel/segment/border_costs.h"
@@ -37,9 +38,10 @@ std::vector<NodeContact> node_contacts(const SurfaceSnapshot& surface, const Cur
 // need: `coarse`, which extract_skeleton leaves in its result, or one that is made here. Its parts go to the
 // nearest faces of the input, where borders settle within 0.6 of a coarse edge. Every part is connected
 // across edges, and parts are numbered from the largest area to the smallest. Throws UsageError for options
-// out of range or a skeleton whose map does not fit the surface. Cost: O(faces + parts * nodes^2) and a
-// maximum flow about each border.
+// out of range or a skeleton whose map does not fit the surface, Cancelled. Cost: O(faces + parts * nodes^2)
+// and a maximum flow about each border.
 Segmentation segment_surface(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton,
-                             const SegmentOptions& options = {}, const CoarseSurface* coarse = nullptr);
+                             const SegmentOptions& options = {}, const CoarseSurface* coarse = nullptr,
+                             const ProgressCallback& progress = {});
 
 }  // namespace mspskel
