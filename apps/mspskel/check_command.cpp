@@ -122,6 +122,7 @@ std::optional<Checked> CheckCommand::check_against_wrap(const PolygonSoup& soup,
                                                         const CurveSkeleton& read) const {
   RunOptions run;
   run.repair = repair_;
+  run.extract = default_options();
   run.extract.execution = execution_;
   const CheckedExtraction made = extract_checked(soup, MeshInput(input), run, CertificateDepth::kVerdict);
   if (!made.input.wrapped) return std::nullopt;

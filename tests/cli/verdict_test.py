@@ -169,6 +169,20 @@ class Crushed(ProgramTest):
         self.assertEqual((result.returncode, json.loads(result.stdout)["wrapped"]), (DONE, True), result.stderr)
         self.assertEqual(self.run_program("check", "crushed.off", "a.skel", "-q", "--wrap", "never").returncode, NO_SKELETON)
 
+    def test_check_extracts_as_the_command_line_does(self):
+        # A box that is pressed flat in its middle: other options wrap nothing, or have another wrap.
+        self.succeed("sample", "box", "box.off", "--resolution", 350, "--side-x", 6, "--side-y", 2, "--side-z", 2)
+        lines = (self.folder / "box.off").read_text().split("\n")
+        count = int(lines[1].split()[0])
+        points = [[float(x) for x in line.split()] for line in lines[2:2 + count]]
+        flat = [" ".join(map(repr, (x, y, 0 if abs(x) < 0.8 else z))) for x, y, z in points]
+        self.write("flat.off", "\n".join([*lines[:2], *flat, *lines[2 + count:]]))
+        result = self.run_program("flat.off", "a.skel", "--report", "r.json")
+        self.assertEqual(result.returncode, DONE, result.stderr)
+        self.assertTrue(json.loads((self.folder / "r.json").read_text())["repair"]["wrapped"])
+        result = self.run_program("check", "flat.off", "a.skel", "--json", "-")
+        self.assertEqual((result.returncode, json.loads(result.stdout)["wrapped"]), (DONE, True), result.stderr)
+
     def test_is_wrapped_with_its_open_ends_closed(self):
         # A crumpled torus, and beside it a tube that is open at one end.
         lines = (self.folder / self.sample("torus", 1500)).read_text().split("\n")
