@@ -38,6 +38,7 @@ std::vector<double> cross_sections(const CurveSkeleton& skeleton,
   for (Index from = 0; from < count; ++from) {
     const double width = skeleton.nodes[from].radius;
     double sum = 0, total = 0;
+    bool meets_joint = false;
     std::priority_queue<Item, std::vector<Item>, std::greater<Item>> queue;
     queue.push({0.0, from});
     visited.clear();
@@ -50,6 +51,7 @@ std::vector<double> cross_sections(const CurveSkeleton& skeleton,
       const double share = weight[n] * (width > 0 ? 1 - distance / width : 1.0);
       sum += share * raw[n];
       total += share;
+      meets_joint = meets_joint || is_joint(neighbours, n);
       // What lies beyond a joint is another arc.
       if (n != from && is_joint(neighbours, n)) continue;
       for (const Index k : neighbours[n]) {
@@ -59,6 +61,9 @@ std::vector<double> cross_sections(const CurveSkeleton& skeleton,
     }
     for (const Index n : visited) done[n] = 0;
     smooth[from] = total > 0 ? sum / total : raw[from];
+    // A section through the middle of a ball is no shorter than the ball's circle. The slices at a flat end
+    // may be: they go round its rim. Near a joint the ball may be that of a thicker arc.
+    if (!meets_joint) smooth[from] = std::max(smooth[from], width);
   }
   take_from_arcs(neighbours, smooth);
   return smooth;

@@ -14,19 +14,29 @@
 namespace mspskel {
 namespace {
 
-// Neighbours of a piece, ascending, and what the border costs. Few, so a sorted list beats a tree.
-using Borders = std::vector<std::pair<Index, double>>;
+// A border costs at most so many times its length, or it has no creases: anywhere round a long tube a border
+// is short for its area.
+constexpr double kMostBare = 0.5;
+
+// Of the border between two pieces.
+struct Border {
+  double cost = 0, length = 0;
+};
+// Neighbours of a piece, ascending, and the borders with them. Few, so a sorted list beats a tree.
+using Borders = std::vector<std::pair<Index, Border>>;
 
 Borders::iterator place_of(Borders& borders, Index piece) {
   return std::lower_bound(borders.begin(), borders.end(), piece,
                           [](const auto& entry, Index p) { return entry.first < p; });
 }
 void erase(Borders& borders, Index piece) { borders.erase(place_of(borders, piece)); }
-// Adds to the border with the piece; returns what it costs then.
-double add(Borders& borders, Index piece, double cost) {
-  const auto at = place_of(borders, piece);
-  if (at == borders.end() || at->first != piece) return borders.insert(at, {piece, cost})->second;
-  return at->second += cost;
+// Adds to the border with the piece; returns the whole of it.
+Border add(Borders& borders, Index piece, const Border& border) {
+  auto at = place_of(borders, piece);
+  if (at == borders.end() || at->first != piece) at = borders.insert(at, {piece, {}});
+  at->second.cost += border.cost;
+  at->second.length += border.length;
+  return at->second;
 }
 
 // Pieces of parts that become one, pair by pair. A piece's number is that of one of its faces.
@@ -42,12 +52,13 @@ class PieceMerger {
     for (Borders& borders : border_) borders.reserve(3);
     for (Index h = 0; h < surface.halfedge_count(); ++h) {
       const Index f = h / 3, g = surface.twin[h] / 3;
-      if (f != g && part_of_face[f] == part_of_face[g]) add(border_[f], g, costs[h]);
+      if (f != g && part_of_face[f] == part_of_face[g])
+        add(border_[f], g, {costs[h], surface.edge_length(h)});
     }
     std::vector<Pair> pairs;
     for (Index f = 0; f < count_; ++f)
-      for (const auto& [g, cost] : border_[f])
-        if (f < g) pairs.push_back({key_of(worth(f, g, cost)), f, g});
+      for (const auto& [g, border] : border_[f])
+        if (f < g) pairs.push_back({key_of(worth(f, g, border)), f, g});
     queue_ = std::priority_queue<Pair>(std::less<Pair>(), std::move(pairs));
   }
 
@@ -77,7 +88,7 @@ class PieceMerger {
   }
 
  private:
-  using Worth = std::pair<int, double>;  // whether one is too small; cost of the border for its size
+  using Worth = std::pair<int, double>;  // whether one is too small; what the border costs
   struct Pair {
     std::uint64_t key;  // of its worth
     Index a, b;         // a < b
@@ -95,12 +106,16 @@ class PieceMerger {
     return bits | static_cast<std::uint64_t>(worth.first) << 63;
   }
 
-  Worth worth(Index a, Index b, double cost) const {
+  Worth worth(Index a, Index b, const Border& border) const {
     const double smaller = std::min(area_[a], area_[b]);
-    return {smaller < options_.smallest * total_ ? 1 : 0, smaller > 0 ? cost / std::sqrt(smaller) : total_};
+    const int small = smaller < options_.smallest * total_ ? 1 : 0;
+    if (smaller <= 0 || border.length <= 0) return {small, total_};
+    // More than the limit where creases take less than their share.
+    const double bare = options_.cost * border.cost / (kMostBare * border.length);
+    return {small, std::max(border.cost / std::sqrt(smaller), bare)};
   }
-  void push(Index a, Index b, double cost) {
-    queue_.push({key_of(worth(a, b, cost)), std::min(a, b), std::max(a, b)});
+  void push(Index a, Index b, const Border& border) {
+    queue_.push({key_of(worth(a, b, border)), std::min(a, b), std::max(a, b)});
   }
   void merge(Index a, Index b) {
     if (border_[a].size() < border_[b].size()) std::swap(a, b);
@@ -111,12 +126,12 @@ class PieceMerger {
     area_[a] += area_[b];
     --count_;
     // The worth of a border is that of the smaller piece: of those that b did not touch only it can change.
-    for (const auto& [c, cost] : border_[a])
-      if (area_[c] > before) push(a, c, cost);
-    for (const auto& [c, cost] : border_[b]) {
+    for (const auto& [c, border] : border_[a])
+      if (area_[c] > before) push(a, c, border);
+    for (const auto& [c, border] : border_[b]) {
       erase(border_[c], b);
-      add(border_[c], a, cost);
-      push(a, c, add(border_[a], c, cost));
+      add(border_[c], a, border);
+      push(a, c, add(border_[a], c, border));
     }
     Borders().swap(border_[b]);
   }

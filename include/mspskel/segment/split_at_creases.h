@@ -21,9 +21,10 @@ struct CreasePartOptions {
 void validate(const CreasePartOptions& options);
 
 // Grows each part anew from its single faces: of all pairs of pieces that touch, the one whose border costs
-// most for its smaller piece becomes one, as long as that is more than `cost`. What stays apart lies within a
-// ring of creases. `costs` are those of border_costs. Writes `part_of_face`, numbered by the least face.
-// Throws UsageError for options out of range. O(faces log faces) on meshes whose pieces have few neighbours.
+// most for its smaller piece becomes one, as long as that is more than `cost` or creases take less than half
+// of what the border would cost by its length. What stays apart lies within a ring of creases. `costs` are
+// those of border_costs. Writes `part_of_face`, numbered by the least face. Throws UsageError for options out
+// of range. O(faces log faces) on meshes whose pieces have few neighbours.
 void split_at_creases(const SurfaceSnapshot& surface, const std::vector<double>& costs,
                       std::vector<Index>& part_of_face, const CreasePartOptions& options = {});
 
