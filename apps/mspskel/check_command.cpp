@@ -68,7 +68,8 @@ class CheckCommand : public Command {
     CommandLine& table = line();
     table.argument("MESH", mesh_path_, "mesh (.off .obj .ply .stl .vtk .vtp .gltf .glb .3mf), - for stdin")
         ->required();
-    table.argument("SKELETON", skeleton_path_, "skeleton (.skel .obj .ply .json .swc .cgal)")->required();
+    table.argument("SKELETON", skeleton_path_, "skeleton (.skel .obj .ply .json .swc .cgal .polylines.txt)")
+        ->required();
     table.number("--least-inside", least_inside_, {0, 1}, "share of the length that must be inside");
     table.number("--smallest-handle", cocycle_options_.smallest_handle, {0, 1},
                  "handles round which a shorter loop runs have no cycle; share of the extent, 0: none");

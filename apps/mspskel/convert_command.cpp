@@ -17,7 +17,8 @@ class ConvertCommand : public Command {
  public:
   ConvertCommand() : Command("convert SKELETON OUT... [options]", "Writes a skeleton in other formats.") {
     CommandLine& table = line();
-    table.argument("SKELETON", input_, "skeleton (.skel .obj .ply .json .swc .cgal)")->required();
+    table.argument("SKELETON", input_, "skeleton (.skel .obj .ply .json .swc .cgal .polylines.txt)")
+        ->required();
     table.arguments(
         "OUT", outputs_,
         "skeletons, by extension: .skel .obj .ply .json .swc .vtp .graphml .cgal .polylines.txt; - is "

@@ -18,12 +18,14 @@
 namespace mspskel::cli {
 namespace {
 
-// .skel and .json are skeletons; .obj and .ply are where they have no faces.
+// .obj and .ply are skeletons where they have no faces; what other formats hold, the name tells.
 bool is_skeleton(const std::string& path) {
-  const std::string extension = std::filesystem::path(path).extension().string();
-  if (extension == ".skel" || extension == ".json") return true;
-  if (extension != ".obj" && extension != ".ply") return false;
-  return read_polygon_soup(path).polygon_count() == 0;
+  const std::filesystem::path name = std::filesystem::path(path).filename();
+  const std::string extension = name.extension().string();
+  if (extension == ".obj" || extension == ".ply") return read_polygon_soup(path).polygon_count() == 0;
+  for (const char* own : {".skel", ".json", ".swc", ".cgal"})
+    if (extension == own) return true;
+  return extension == ".txt" && name.stem().extension() == ".polylines";
 }
 
 Json mesh_facts(const MeshInput& input, const MeshReport& report) {
@@ -132,7 +134,7 @@ class InfoCommand : public Command {
     table
         .argument("FILE", path_,
                   "mesh (.off .obj .ply .stl .vtk .vtp .gltf .glb .3mf) or skeleton (.skel .obj .ply .json "
-                  ".swc .cgal)")
+                  ".swc .cgal .polylines.txt)")
         ->required();
     table.flag("--json", as_json_, "the same for programs");
     table.flag("-q,--quiet", quiet_, "no warnings");

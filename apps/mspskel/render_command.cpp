@@ -61,7 +61,7 @@ RenderCommand::RenderCommand()
   CommandLine& table = line();
   table.arguments("FILES", files_,
                   "mesh (.off .obj .ply .stl .vtk .vtp .gltf .glb .3mf), skeleton (.skel .obj .ply .json "
-                  ".swc .cgal), picture (.png)");
+                  ".swc .cgal .polylines.txt), picture (.png)");
   table.text("--segments", segments_, "FILE.seg", "colours the faces by their parts, one number a line");
   table.number("--views", options_.view_count, {1, 16}, "views side by side");
   table.number("--width", options_.width, {16, 8192}, "of one view, pixels");

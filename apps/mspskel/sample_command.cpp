@@ -50,7 +50,8 @@ class SampleCommand : public Command {
                  {{"own", Section::kOwn}, {"square", Section::kSquare}, {"round", Section::kRound}},
                  "of the bars, where the list below says so");
     table.text("--truth", truth_, "FILE",
-               "the skeleton that the sample is made round (.skel .obj .ply .json .swc .vtp .graphml .cgal)");
+               "the skeleton that the sample is made round (.skel .obj .ply .json .swc .vtp .graphml .cgal "
+               ".polylines.txt)");
     table.number("--seed", options_.seed, kSeedRange, "of the places of the vertices");
     table.section({"Samples", sample_list()});
   }

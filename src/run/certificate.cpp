@@ -10,8 +10,9 @@ TopologyCertificate certify(const SurfaceSnapshot& surface, const VolumeCocycles
                             CertificateDepth depth, const Execution& execution) {
   refuse_not_finite(skeleton);
   CertificateOptions options;
-  // Whether the surface crosses itself decides between "proved" and "kept", never over "failed".
-  if (depth == CertificateDepth::kVerdict) options.self_intersecting = false;
+  // Whether the surface crosses itself decides between "proved" and "kept", and over failure only where a
+  // handle has no cocycle of the solid.
+  if (depth == CertificateDepth::kVerdict && cocycles.completions == 0) options.self_intersecting = false;
   return certify_topology(surface, cocycles, solids, polyline_graph(surface, skeleton), options, execution);
 }
 

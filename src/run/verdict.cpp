@@ -32,6 +32,13 @@ std::string what_is_uncovered(const std::vector<UncoveredPart>& parts) {
   return counted(static_cast<Index>(parts.size()), "part") + " have no arc, the longest " + largest;
 }
 
+// Of cycles that leave the solid, and so may pass beside a disc, the certificate does not say that they fail.
+// Where a surface that crosses itself has a handle without a disc, nobody knows what goes round it.
+bool misses_handles(const TopologyCertificate& c) {
+  const Index known = c.crossing_rank + (c.self_intersecting ? 0 : c.completions);
+  return c.clear && known < c.total_genus - c.small_handles;
+}
+
 }  // namespace
 
 Verdict judge(const SurfaceSnapshot& surface, const TopologyCertificate& certificate,
@@ -46,8 +53,13 @@ Verdict judge(const SurfaceSnapshot& surface, const TopologyCertificate& certifi
       verdict.warnings.push_back(std::move(outside));
   }
   if (!uncovered.empty()) verdict.warnings.push_back(what_is_uncovered(uncovered));
+  const std::string wrong = "the skeleton's topology is not the solid's: ";
   if (certificate.verdict == TopologyVerdict::kFailed)
-    verdict.failure = "the skeleton's topology is not the solid's: " + certificate.reason;
+    verdict.failure = wrong + certificate.reason;
+  else if (verdict.failure.empty() && least_inside > 0 && misses_handles(certificate))
+    verdict.failure = wrong + "the cycles cross the discs with rank " +
+                      std::to_string(certificate.crossing_rank) + ", not " +
+                      std::to_string(certificate.total_genus - certificate.small_handles);
   return verdict;
 }
 

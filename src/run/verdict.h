@@ -17,7 +17,8 @@ struct Verdict {
 
 // `surface` is what was certified; places in the sentences are in model units. Fails what the certificate
 // fails, and a skeleton of whose length a smaller share than `least_inside` is inside; of 1, any edge
-// outside.
+// outside. Unless that is 0, as for skeletons that may lie outside, each handle needs a cycle, too, whatever
+// excuses the proof.
 Verdict judge(const SurfaceSnapshot& surface, const TopologyCertificate& certificate,
               const std::vector<UncoveredPart>& uncovered, double least_inside);
 

@@ -67,6 +67,10 @@ class Info(ProgramTest):
             self.assertEqual((facts["kind"], facts["leaves"], facts["joints"], len(facts["branches"])), ("skeleton", 3, 1, 3))
             self.assertAlmostEqual(sum(b["length"] for b in facts["branches"]), facts["length"], places=9)
         self.assertIn("3 leaves", self.succeed("info", "a.skel").decode())
+        self.succeed("y-tube.off", "a.swc", "a.cgal", "a.polylines.txt")
+        for name in ("a.swc", "a.cgal", "a.polylines.txt"):
+            facts = self.facts(name)
+            self.assertEqual((facts["kind"], facts["leaves"], len(facts["branches"])), ("skeleton", 3, 3))
 
     def test_open_ends_are_listed(self):
         self.sample("tube", 400)

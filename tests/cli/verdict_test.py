@@ -47,6 +47,10 @@ class Check(ProgramTest):
         result = self.check(outside, None, "--least-inside", 0)
         self.assertEqual(result.returncode, DONE, result.stderr)
         self.assertIn(b"certificate  kept: 2 edges", result.stdout)
+        # Of a skeleton that is meant to be inside, the handle still wants its cycle.
+        result = self.check(outside, None, "--least-inside", 0.01)
+        self.assertEqual(result.returncode, NO_SKELETON)
+        self.assertIn(b"rank 0, not 1", result.stderr)
 
     def test_lost_cycle(self):
         result = self.check(self.ROUND, [(i, i + 1) for i in range(7)])

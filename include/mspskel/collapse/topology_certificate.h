@@ -53,6 +53,7 @@ struct TopologyCertificate {
   // Of the skeleton.
   Index b0 = 0, b1 = 0;
   Index crossing_rank = 0;  // rank of the signed crossings of its cycles with the cocycles' regions
+  bool clear = true;        // false: rounding left a doubt about the crossings
   // Share of the length inside the solid of the component that each piece stands for, without its cavities;
   // edges that are not inside from end to end.
   double inside = 0.0;

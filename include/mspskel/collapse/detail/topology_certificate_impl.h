@@ -209,6 +209,7 @@ MSPSKEL_INLINE TopologyCertificate certify_topology(
       detail::cross_cycles(cocycles, sorted, c.edges_inside, component, execution.progress);
   c.b1 = crossings.cycles;
   c.crossing_rank = crossings.rank;
+  c.clear = crossings.clear;
   const bool matched = detail::pieces_match_components(surface, piece, component);
   // What excuses a proof does not excuse cycles inside the solid that cross the discs with too low a rank. It
   // says nothing where an edge goes outside, past the discs.
