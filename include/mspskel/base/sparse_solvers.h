@@ -12,55 +12,18 @@
 #include <utility>
 #include <vector>
 
+#include "mspskel/base/core_solver.h"
+
 namespace mspskel {
 
 namespace detail {
 
-// Three numbers a row, side by side in one vector.
-inline auto row_of_three(Eigen::VectorXd& x, Eigen::Index i) { return x.segment<3>(3 * i); }
-inline auto row_of_three(const Eigen::VectorXd& x, Eigen::Index i) { return x.segment<3>(3 * i); }
-
-// Incomplete LU factors that hold three times the matrix, and solve for three right sides in one pass over
-// their entries, with the same result as one after the other.
+// Incomplete LU factors that hold three times the matrix.
 class IncompleteFactors : public Eigen::IncompleteLUT<double> {
  public:
   IncompleteFactors() {
     setDroptol(1e-4);
     setFillfactor(3);
-  }
-
-  // Kept from one solution to the next.
-  struct Room {
-    Eigen::VectorXd x;
-    std::vector<int> diagonal;  // per row the entry on the diagonal
-  };
-
-  void solve_rows(const Eigen::VectorXd& right, Eigen::VectorXd& result, Room& room) const {
-    const int rows = static_cast<int>(right.size() / 3);
-    Eigen::VectorXd& x = room.x;
-    x.resize(right.size());
-    result.resize(right.size());
-    room.diagonal.resize(static_cast<std::size_t>(rows));
-    const auto& order = m_Pinv.indices();
-    for (int i = 0; i < rows; ++i) row_of_three(x, order[i]) = row_of_three(right, i);
-    // A row holds its entries left of the diagonal, the diagonal, and those right of it. The factors of any
-    // matrix have each diagonal entry: where it comes out as zero, IncompleteLUT puts a small number.
-    const int *begin = m_lu.outerIndexPtr(), *column = m_lu.innerIndexPtr();
-    const double* value = m_lu.valuePtr();
-    for (int i = 0; i < rows; ++i) {
-      Eigen::Vector3d left = row_of_three(x, i);
-      int k = begin[i];
-      for (; column[k] != i; ++k) left -= value[k] * row_of_three(x, column[k]);
-      room.diagonal[static_cast<std::size_t>(i)] = k;
-      row_of_three(x, i) = left;
-    }
-    for (int i = rows - 1; i >= 0; --i) {
-      Eigen::Vector3d left = row_of_three(x, i);
-      const int diagonal = room.diagonal[static_cast<std::size_t>(i)];
-      for (int k = diagonal + 1; k < begin[i + 1]; ++k) left -= value[k] * row_of_three(x, column[k]);
-      row_of_three(x, i) = left / value[diagonal];
-    }
-    for (int i = 0; i < rows; ++i) row_of_three(result, m_P.indices()[i]) = row_of_three(x, i);
   }
 };
 
@@ -104,99 +67,7 @@ inline std::optional<Eigen::MatrixX3d> solve_large(const Eigen::SparseMatrix<dou
   return solve_by_elimination(matrix, right);
 }
 
-// A matrix for three coordinates side by side: three rows for each row of `even`. Off the diagonal an entry
-// of `even` counts for each coordinate alike; on it stand the blocks, which couple the coordinates, in place
-// of even's entries: `even` has an entry, be it 0, at each place of its diagonal, and as many blocks belong
-// to it. Written out it would hold three times the entries of `even` and nine for each block.
-struct CoupledMatrix {
-  Eigen::SparseMatrix<double> even;
-  std::vector<Eigen::Matrix3d> diagonal;
-};
-
 namespace detail {
-
-// Adds matrix · x to vectors, row by row. Refers to the matrix's blocks.
-class CoupledProduct {
- public:
-  explicit CoupledProduct(const CoupledMatrix& matrix) : rows_(matrix.even), diagonal_(matrix.diagonal) {}
-
-  void add(const Eigen::VectorXd& x, Eigen::VectorXd& sum) const {
-    const int *begin = rows_.outerIndexPtr(), *column = rows_.innerIndexPtr();
-    const double* value = rows_.valuePtr();
-    const int rows = static_cast<int>(rows_.rows());
-    for (int i = 0; i < rows; ++i) {
-      Eigen::Vector3d s = row_of_three(sum, i);
-      for (int k = begin[i]; k < begin[i + 1]; ++k) {
-        const Eigen::Vector3d factor = row_of_three(x, column[k]);
-        if (column[k] != i) {
-          s += value[k] * factor;
-          continue;
-        }
-        const Eigen::Matrix3d& block = diagonal_[static_cast<std::size_t>(i)];
-        for (int l = 0; l < 3; ++l) s += factor[l] * block.col(l);
-      }
-      row_of_three(sum, i) = s;
-    }
-  }
-  void set(const Eigen::VectorXd& x, Eigen::VectorXd& product) const {
-    product.setZero(x.size());
-    add(x, product);
-  }
-
- private:
-  Eigen::SparseMatrix<double, Eigen::RowMajor> rows_;
-  const std::vector<Eigen::Matrix3d>& diagonal_;
-};
-
-// What matrix · way = right − matrix · guess adds to the guess, by preconditioned BiCGSTAB (van der Vorst
-// 1992) from zero: Eigen's own wants the matrix written out, and makes room for each product anew.
-template <class Factors>
-std::optional<Eigen::VectorXd> solve_coupled_by_steps(const CoupledMatrix& matrix,
-                                                      const Eigen::VectorXd& right,
-                                                      const Eigen::VectorXd& guess, const Factors& factors) {
-  // Enough for rounds that begin where the one before ended.
-  constexpr double kTolerance = 1e-5, kEpsilon = std::numeric_limits<double>::epsilon();
-  constexpr int kMostSteps = 200;
-  if (factors.info() != Eigen::Success) return std::nullopt;
-  const CoupledProduct product(matrix);
-  typename Factors::Room room;
-  const Eigen::Index n = right.size();
-  Eigen::VectorXd way = Eigen::VectorXd::Zero(n), v = way, p = way, y(n), z(n), s(n), t(n);
-  const auto what_is_left = [&] {
-    Eigen::VectorXd left = right;
-    product.add(-guess, left);
-    product.add(-way, left);
-    return left;
-  };
-  product.set(guess, t);
-  const double goal = (right - t).squaredNorm();
-  if (goal == 0) return guess;
-  Eigen::VectorXd r = what_is_left(), r0 = r;
-  double r0_square = r0.squaredNorm(), rho = 1, alpha = 1, w = 1;
-  bool restarted = false;
-  for (int step = 0; r.squaredNorm() > kTolerance * kTolerance * goal && step < kMostSteps; ++step) {
-    const double rho_before = std::exchange(rho, r0.dot(r));
-    if (std::abs(rho) < kEpsilon * kEpsilon * r0_square) {  // r has become orthogonal to r0
-      r = r0 = what_is_left();
-      rho = r0_square = r.squaredNorm();
-      if (!std::exchange(restarted, true)) step = 0;
-    }
-    const double beta = (rho / rho_before) * (alpha / w);
-    p = r + beta * (p - w * v);
-    factors.solve_rows(p, y, room);
-    product.set(y, v);
-    alpha = rho / r0.dot(v);
-    s = r - alpha * v;
-    factors.solve_rows(s, z, room);
-    product.set(z, t);
-    const double t_square = t.squaredNorm();
-    w = t_square > 0 ? t.dot(s) / t_square : 0.0;
-    way += alpha * y + w * z;
-    r = s - w * t;
-  }
-  if (!(std::sqrt(r.squaredNorm() / goal) <= kTolerance) || !way.allFinite()) return std::nullopt;
-  return guess + way;
-}
 
 // Exact factors L·D·Lᵀ of a coupled matrix in blocks of three by three, in an order of least fill: a tree of
 // lines fills in nothing but what a line does. Up-looking elimination (Davis 2005). Refers to the matrix.
@@ -299,17 +170,19 @@ class BlockFactors {
 
 }  // namespace detail
 
-// Solves coupled · x = right by elimination. For graphs with many cycles, whose factors fill in, in steps
-// from the guess until what is left of the right side is 1e-5 of what the guess leaves, with incomplete
-// factors of coupled.even, which should be nearly what the matrix is for each coordinate; by elimination as
-// well where too many steps were needed. Nothing if rounding leaves no factors.
+// Solves coupled · x = right by elimination. For graphs with many cycles, whose factors fill in, only along
+// their lines, and in steps from the guess where these meet; by elimination as well where too many steps were
+// needed. Nothing if rounding leaves no factors.
 inline std::optional<Eigen::VectorXd> solve_coupled(const CoupledMatrix& coupled,
                                                     const Eigen::VectorXd& right,
                                                     const Eigen::VectorXd& guess, bool has_many_cycles) {
+  // Enough for rounds that begin where the one before ended.
+  constexpr double kTolerance = 1e-4;
+  constexpr int kMostSteps = 1000;
   if (has_many_cycles) {
-    detail::IncompleteFactors factors;
-    factors.compute(coupled.even);
-    if (auto solution = detail::solve_coupled_by_steps(coupled, right, guess, factors)) return solution;
+    detail::CoreSolver core(coupled);
+    if (core.eliminate())
+      if (auto solution = core.solve(right, guess, kTolerance, kMostSteps)) return solution;
   }
   detail::BlockFactors factors(coupled);
   if (!factors.compute()) return std::nullopt;
