@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "mspskel/base/error.h"
 #include "mspskel/mesh/build_mesh.h"
 #include "mspskel/repair/mend_soup.h"
 #include "mspskel/samples/samples.h"
@@ -39,6 +40,21 @@ TEST_CASE("three edges that close up and are no face are a gate, and a path lead
   way.insert(way.begin(), end);
   way.push_back(bar);
   for (std::size_t i = 1; i < way.size(); ++i) CHECK_FALSE(solid.segment_crosses(way[i - 1], way[i]));
+}
+
+TEST_CASE("a search among the ways of a class asks whether to stop") {
+  const SurfaceSnapshot surface = bar_with_chain();
+  const BoundingVolumeHierarchy solid(surface);
+  bool goes_on = true;
+  Execution execution;
+  execution.progress = [&](const char*, double) { return goes_on; };
+  detail::InnerPaths paths(surface, solid, execution);
+  paths.prepare();
+  const Vector3 a = surface.frame.to_normalised({0.5, 1, 1}), b = surface.frame.to_normalised({8.5, 1, 1});
+  std::vector<Vector3> way;
+  CHECK(paths.path_of_class(a, b, CrossingLabels(), CocycleLabel(), way));
+  goes_on = false;
+  CHECK_THROWS_AS(paths.path_of_class(a, b, CrossingLabels(), CocycleLabel(), way), Cancelled);
 }
 
 TEST_CASE("the surface of a voxel block of many faces has no gates") {

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "mspskel/base/progress.h"
 #include "mspskel/collapse/crossing_labels.h"
 #include "mspskel/solid/detail/inner_net.h"
 #include "mspskel/solid/detail/landmarks.h"
@@ -23,7 +24,7 @@ class InnerPaths {
  public:
   InnerPaths(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
              const Execution& execution = {}, InnerSurface kind = InnerSurface::kCoarser)
-      : net_(surface, solid, execution, kind) {}
+      : net_(surface, solid, execution, kind), progress_(execution.progress) {}
 
   bool is_input() const { return net_.is_input(); }
 
@@ -118,7 +119,7 @@ class InnerPaths {
   std::size_t came_by() const { return came_by_; }
 
   // As path(), among the ways with this label. False as well where the search comes by many labels before it
-  // finds one: so many ways round handles are as short.
+  // finds one: so many ways round handles are as short. Throws Cancelled.
   bool path_of_class(const Vector3& a, const Vector3& b, const CrossingLabels& crossings,
                      const CocycleLabel& wanted, std::vector<Vector3>& between) {
     constexpr std::size_t kLabels = 4;  // as many as all points with so many labels each
@@ -129,7 +130,8 @@ class InnerPaths {
       queue.push({InnerNet::step_cost(distance, net_.clearance(v)), v, kNone});
     std::unordered_set<Index> goal;
     for (const auto& [distance, v] : net_.entries(b)) goal.insert(v);
-    while (!queue.empty() && places.size() < kLabels * marks_[0].size()) {
+    for (std::size_t popped = 0; !queue.empty() && places.size() < kLabels * marks_[0].size(); ++popped) {
+      if (popped % 1024 == 0) report_progress(progress_, "arcs", 0.5);
       const auto [cost, v, before] = queue.top();
       queue.pop();
       CocycleLabel label = before == kNone ? crossings(a, net_.point(v))
@@ -200,6 +202,7 @@ class InnerPaths {
   }
 
   InnerNet net_;
+  const ProgressCallback progress_;
   std::array<std::vector<Mark>, 2> marks_;  // per side and node; of `marked_` alone they mean something
   std::vector<Index> marked_;
   Landmarks landmarks_;      // of this net, where searches have come by many vertices
