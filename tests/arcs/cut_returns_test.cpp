@@ -111,6 +111,10 @@ TEST_CASE("What goes round a handle stays") {
   ArcGraph graph = arc_through(ring, circle);
   CHECK(cut_returns(graph, ring.hierarchy, {}, labels) == 0);
   CHECK(length(ring, graph) > 12);
-  // Without labels nobody knows of the handle.
+  // Without labels nobody knows of the handle, and only a cycle tells of it.
   CHECK(cut_returns(graph, ring.hierarchy) == 1);
+  ArcGraph cycle = arc_through(ring, circle);
+  add_arc(cycle, 1, 0, {ring.at({2, 0, 0})});
+  CHECK(cut_returns(cycle, ring.hierarchy) == 0);
+  CHECK(cut_returns(cycle, ring.hierarchy, {}, labels) == 0);
 }

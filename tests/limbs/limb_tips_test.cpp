@@ -10,11 +10,13 @@
 #include <set>
 #include <string>
 
+#include "mspskel/extract_skeleton.h"
 #include "mspskel/limbs/detail/part_level.h"
 #include "mspskel/limbs/detail/part_shape.h"
 #include "mspskel/mesh/coarsen_surface.h"
 #include "mspskel/mesh/subdivide_surface.h"
 #include "mspskel/samples/blocks.h"
+#include "mspskel/samples/skin_graph.h"
 #include "support/solids.h"
 #include "topology/voxel_solids.h"
 
@@ -477,6 +479,32 @@ TEST_CASE("Leaves are aimed at the middle of a limb's end, inside the solid") {
     CHECK((tip.target == tip.position ||
            (solid.hierarchy.inside(tip.target) &&
             solid.hierarchy.distance(tip.target) > 0.04 * tip.measures.half_width)));
+  }
+}
+
+TEST_CASE("Wings are limbs, thin as they are, each of a pair") {
+  // A slender body and two pairs of wings, all pressed flat.
+  BallGraph butterfly;
+  butterfly.blend = 0.1;
+  butterfly.nodes = {{{0, 1.6, 0}, 0.3},     {{0, 0, 0}, 0.3},       {{0, -2, 0}, 0.25},
+                     {{1.2, 0.8, 0}, 0.9},   {{-1.2, 0.8, 0}, 0.9},  {{2.8, 1.8, 0}, 1.0},
+                     {{-2.8, 1.8, 0}, 1.0},  {{1, -0.9, 0}, 0.8},    {{-1, -0.9, 0}, 0.8},
+                     {{1.9, -1.9, 0}, 0.85}, {{-1.9, -1.9, 0}, 0.85}};
+  butterfly.edges = {{0, 1}, {1, 2}, {1, 3}, {1, 4}, {3, 5}, {4, 6}, {1, 7}, {1, 8}, {7, 9}, {8, 10}};
+  for (const double thickness : {0.06, 0.1, 0.15}) {
+    PolygonSoup flat = skin_graph(butterfly, 6000);
+    for (Vector3& x : flat.points) x.z() *= thickness;
+    const ExtractResult result = extract_skeleton(to_mesh(flat));
+    const std::vector<std::vector<Index>> next = adjacency(result.skeleton);
+    for (const int wing : {5, 6, 9, 10}) {
+      CAPTURE(thickness, wing);
+      double nearest = 1e9;
+      for (std::size_t n = 0; n < next.size(); ++n)
+        if (next[n].size() == 1)
+          nearest =
+              std::min(nearest, (result.skeleton.nodes[n].position - butterfly.nodes[wing].position).norm());
+      CHECK(nearest < 1.2 * butterfly.nodes[wing].radius);
+    }
   }
 }
 

@@ -28,6 +28,9 @@ struct LimbTip {
   // Its depth: how far the vertex is beyond where the limb is most slender; of a body's end, from the middle.
   LimbMeasures measures;
   std::vector<Index> cap;  // the end: the outer half of that depth, and at most 1.2 half widths
+  // A wing or a leaf, thin as it may be: it does not widen to its end, and the middle of its surface lies in
+  // the solid, other than that of a wall which bends round a hollow.
+  bool is_lobe = false;
 };
 
 // The limbs of each component. A limb is what lies beyond a maximum of the inner distance from the middle, as

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mspskel/arcs/cut_returns.h"
+#include "mspskel/arcs/route_by_class.h"
 #include "mspskel/base/linkage.h"
 
 namespace mspskel {
@@ -130,11 +131,13 @@ MSPSKEL_INLINE Index cut_returns(ArcGraph& graph, const BoundingVolumeHierarchy&
                                  const Execution& execution, const CrossingLabels& crossings) {
   std::vector<Index> detours(graph.arcs.size(), 0);
   const std::vector<std::vector<Index>> incidence = graph.incidence();
+  const std::vector<bool> is_kept =
+      crossings.rank() == 0 ? arcs_of_cycles(graph) : std::vector<bool>(graph.arcs.size(), false);
   parallel_for(
       graph.arc_count(), "arcs", execution, [] { return 0; },
       [&](Index a, int) {
         Arc& arc = graph.arcs[a];
-        if (!arc.alive || arc.points.size() < 3) return;
+        if (!arc.alive || is_kept[a] || arc.points.size() < 3) return;
         const auto is_leaf = [&](int end) { return incidence[arc.hub[end]].size() == 1; };
         auto [line, count] =
             detail::ReturnSearch(arc.points, {is_leaf(0), is_leaf(1)}, solid, crossings).run();

@@ -139,13 +139,24 @@ inline std::vector<std::optional<Vector3>> middle_of_components(const SurfaceSna
   return middle;
 }
 
+// The centroid of the surface about some vertices.
+inline Vector3 middle_of(const SurfaceSnapshot& surface, const std::vector<Index>& vertices) {
+  Vector3 sum = Vector3::Zero();
+  double area = 0;
+  for (const Index v : vertices) {
+    sum += surface.vertex_area[v] * surface.position[v];
+    area += surface.vertex_area[v];
+  }
+  return area > 0 ? Vector3(sum / area) : surface.position[vertices.front()];
+}
+
 }  // namespace detail
 
 MSPSKEL_INLINE void drop_tips_in_walls(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
                                        const std::vector<bool>& shells, std::vector<LimbTip>& tips) {
   constexpr double kThin = 0.45;
   const auto in_wall = [&](const LimbTip& tip) {
-    if (!shells[surface.component[tip.vertex]]) return false;
+    if (!shells[surface.component[tip.vertex]] || tip.is_lobe) return false;
     std::vector<double> chords;
     for (const Index v : tip.cap) chords.push_back(detail::half_chord(surface, solid, v));
     return detail::value_at_rank(std::move(chords), 0.5) < kThin * tip.measures.half_width;
@@ -186,10 +197,13 @@ MSPSKEL_INLINE std::vector<LimbTip> find_limb_tips(const SurfaceSnapshot& surfac
   const std::vector<double> distance = inner_distances(surface, ways, solid, middle, execution);
   const std::vector<detail::FoundLimb> limbs =
       detail::LimbTipSearch(surface, solid, slices, options, distance).run();
+  constexpr double kLobe = 0.45;  // a tube's is half, that of a disc round its stem a third
   std::vector<LimbTip> tips;
   for (const detail::FoundLimb& limb : limbs) {
     tips.push_back(limb.tip);
     tips.back().position = surface.position[limb.tip.vertex];
+    tips.back().is_lobe =
+        limb.tip.measures.mean_depth >= kLobe && solid.inside(detail::middle_of(surface, limb.part));
     detail::keep_target_well_inside(tips.back(), solid);
   }
   const std::vector<bool> shells = find_shells(surface, solid, slices);
