@@ -28,8 +28,8 @@ struct LimbTip {
   // Its depth: how far the vertex is beyond where the limb is most slender; of a body's end, from the middle.
   LimbMeasures measures;
   std::vector<Index> cap;  // the end: the outer half of that depth, and at most 1.2 half widths
-  // A wing or a leaf, thin as it may be: it does not widen to its end, and the middle of its surface lies in
-  // the solid, other than that of a wall which bends round a hollow.
+  // A wing or a leaf, thin as it may be: it is as slender as a finger and does not widen to its end, and the
+  // middle of its surface lies in the solid, other than that of a wall which bends round a hollow.
   bool is_lobe = false;
 };
 

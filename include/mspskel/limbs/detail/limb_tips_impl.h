@@ -197,13 +197,14 @@ MSPSKEL_INLINE std::vector<LimbTip> find_limb_tips(const SurfaceSnapshot& surfac
   const std::vector<double> distance = inner_distances(surface, ways, solid, middle, execution);
   const std::vector<detail::FoundLimb> limbs =
       detail::LimbTipSearch(surface, solid, slices, options, distance).run();
-  constexpr double kLobe = 0.45;  // a tube's is half, that of a disc round its stem a third
+  constexpr double kLobe = 0.45;  // half of a tube and of a plank, a third of a disc round its stem
   std::vector<LimbTip> tips;
   for (const detail::FoundLimb& limb : limbs) {
     tips.push_back(limb.tip);
     tips.back().position = surface.position[limb.tip.vertex];
-    tips.back().is_lobe =
-        limb.tip.measures.mean_depth >= kLobe && solid.inside(detail::middle_of(surface, limb.part));
+    const LimbMeasures& m = limb.tip.measures;
+    tips.back().is_lobe = m.mean_depth >= kLobe && m.slenderness >= kFinger * options.slenderness &&
+                          solid.inside(detail::middle_of(surface, limb.part));
     detail::keep_target_well_inside(tips.back(), solid);
   }
   const std::vector<bool> shells = find_shells(surface, solid, slices);
