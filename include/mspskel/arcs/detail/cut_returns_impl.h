@@ -111,9 +111,23 @@ class ReturnSearch {
   bool is_return(std::size_t i, std::size_t j, double way, double chord) {
     const double ball = std::max(radius(i), radius(j));
     if (chord >= ball || way <= ball) return false;
+    if (round_.first <= i && i < round_.end && round_.back_first <= j && j < round_.back_end) return false;
     std::vector<Vector3> ring;
     append(ring, i, j + 1);
-    return !crossings_.goes_round(ring);
+    if (!crossings_.goes_round(ring)) return true;
+    note_round(i, j);
+    return false;
+  }
+
+  // The way from i to j goes round a handle. So do all that begin and end in the same two passages of the arc
+  // through the ball at i, in which what they differ by can be filled.
+  void note_round(std::size_t i, std::size_t j) {
+    const auto is_in_ball = [&](std::size_t k) { return (points_[k] - points_[i]).norm() < radius(i); };
+    if (!is_in_ball(j)) return;
+    round_ = {i, i + 1, j, j + 1};
+    while (round_.end < j && is_in_ball(round_.end)) ++round_.end;
+    while (round_.back_first > round_.end && is_in_ball(round_.back_first - 1)) --round_.back_first;
+    while (round_.back_end < points_.size() && is_in_ball(round_.back_end)) ++round_.back_end;
   }
 
   const std::vector<Vector3>& points_;
@@ -123,6 +137,10 @@ class ReturnSearch {
   std::vector<double> walked_;  // along the arc
   std::vector<double> radius_;  // of the ball at a point; negative where it was not asked for
   double longest_ = 0;          // step
+  // Points from the first ones to the second ones are known to go round a handle.
+  struct {
+    std::size_t first = 0, end = 0, back_first = 0, back_end = 0;
+  } round_;
 };
 
 }  // namespace detail

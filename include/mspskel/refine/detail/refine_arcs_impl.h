@@ -127,7 +127,7 @@ class ArcRefinement {
       settled = graph_;
       const std::vector<Index> strays = aim_strays();
       held.insert(held.end(), strays.begin(), strays.end());
-      unsettled = cut() > 0 || !strays.empty();
+      unsettled = !strays.empty();
     }
   }
   void lay() {
