@@ -1,7 +1,6 @@
 // mspskel info FILE: what a mesh or a skeleton is, in numbers.
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <iostream>
 #include <limits>
 
@@ -20,12 +19,15 @@ namespace {
 
 // .obj and .ply are skeletons where they have no faces; what other formats hold, the name tells.
 bool is_skeleton(const std::string& path) {
-  const std::filesystem::path name = std::filesystem::path(path).filename();
-  const std::string extension = name.extension().string();
-  if (extension == ".obj" || extension == ".ply") return read_polygon_soup(path).polygon_count() == 0;
-  for (const char* own : {".skel", ".json", ".swc", ".cgal"})
-    if (extension == own) return true;
-  return extension == ".txt" && name.stem().extension() == ".polylines";
+  SkeletonFormat format;
+  try {
+    format = skeleton_format_of(path);
+  } catch (const UsageError&) {  // of a mesh
+    return false;
+  }
+  if (format == SkeletonFormat::kObj || format == SkeletonFormat::kPly)
+    return read_polygon_soup(path).polygon_count() == 0;
+  return format != SkeletonFormat::kVtp && format != SkeletonFormat::kGraphml;  // which are only written
 }
 
 Json mesh_facts(const MeshInput& input, const MeshReport& report) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mspskel/arcs/cut_returns.h"
+#include "mspskel/arcs/detail/polyline_ends.h"
 #include "mspskel/arcs/route_by_class.h"
 #include "mspskel/base/linkage.h"
 
@@ -50,7 +51,7 @@ class ReturnSearch {
       };
       const bool begins = is_leaf_[0] && is_passed(before), ends = is_leaf_[1] && is_passed(after);
       if (ends && (!begins || after.beyond <= before.beyond)) {
-        append(line, i + 1, detour.farthest + 1);
+        append_points(line, points_, i + 1, detour.farthest + 1);
         break;
       }
       if (begins) {
@@ -70,11 +71,6 @@ class ReturnSearch {
     double beyond = 0;  // the ball
     std::size_t farthest = 0;
   };
-
-  void append(std::vector<Vector3>& line, std::size_t first, std::size_t end) const {
-    line.insert(line.end(), points_.begin() + static_cast<std::ptrdiff_t>(first),
-                points_.begin() + static_cast<std::ptrdiff_t>(end));
-  }
 
   double radius(std::size_t i) {
     if (radius_[i] < 0) radius_[i] = solid_.distance(points_[i]);
@@ -113,7 +109,7 @@ class ReturnSearch {
     if (chord >= ball || way <= ball) return false;
     if (round_.first <= i && i < round_.end && round_.back_first <= j && j < round_.back_end) return false;
     std::vector<Vector3> ring;
-    append(ring, i, j + 1);
+    append_points(ring, points_, i, j + 1);
     if (!crossings_.goes_round(ring)) return true;
     note_round(i, j);
     return false;

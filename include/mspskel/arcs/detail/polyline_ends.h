@@ -1,6 +1,7 @@
 // How long polylines are, where they end, and how they grow.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
@@ -12,6 +13,13 @@ inline double length_of(const std::vector<Vector3>& points) {
   double length = 0;
   for (std::size_t i = 1; i < points.size(); ++i) length += (points[i] - points[i - 1]).norm();
   return length;
+}
+
+// Adds the points from `first` up to the one before `end`.
+inline void append_points(std::vector<Vector3>& line, const std::vector<Vector3>& points, std::size_t first,
+                          std::size_t end) {
+  line.insert(line.end(), points.begin() + static_cast<std::ptrdiff_t>(first),
+              points.begin() + static_cast<std::ptrdiff_t>(end));
 }
 
 // The point of a polyline at the given length before its last point, or its first point.

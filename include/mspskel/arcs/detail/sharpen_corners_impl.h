@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "mspskel/arcs/detail/arc_points.h"
+#include "mspskel/arcs/detail/polyline_ends.h"
 #include "mspskel/base/linkage.h"
 
 namespace mspskel {
@@ -38,13 +39,13 @@ class CornerSearch {
       k = stretch.to;
       const std::optional<Vector3> corner = corner_of(stretch);
       if (!corner) continue;
-      append(line, done, stretch.from + 1);
+      append_points(line, points_, done, stretch.from + 1);
       append_straight(line, *corner);
       append_straight(line, points_[stretch.to]);
       done = stretch.to + 1;
       ++corners;
     }
-    append(line, done, points_.size());
+    append_points(line, points_, done, points_.size());
     return {std::move(line), corners};
   }
 
@@ -62,12 +63,6 @@ class CornerSearch {
     Vector3 start = Vector3::Zero(), along = Vector3::Zero();  // a unit vector
     double radius = 0;                                         // the clearance where it starts
   };
-
-  // The arc's points from `first` up to the one before `end`.
-  void append(std::vector<Vector3>& line, std::size_t first, std::size_t end) const {
-    line.insert(line.end(), points_.begin() + static_cast<std::ptrdiff_t>(first),
-                points_.begin() + static_cast<std::ptrdiff_t>(end));
-  }
 
   // At the steps of the arc.
   void append_straight(std::vector<Vector3>& line, const Vector3& to) const {
@@ -183,7 +178,7 @@ class CornerSearch {
         solid_.segment_crosses(corner, points_[stretch.to]))
       return false;
     std::vector<Vector3> ring{corner};
-    append(ring, stretch.from, stretch.to + 1);
+    append_points(ring, points_, stretch.from, stretch.to + 1);
     return !crossings_.goes_round(ring);
   }
 

@@ -118,8 +118,7 @@ class WallArcs {
   void append(const Part& part, std::vector<Vector3>& tight) {
     const Arc& arc = graph_.arcs[part.arc];
     if (part.ways.empty()) {
-      tight.insert(tight.end(), arc.points.begin() + static_cast<std::ptrdiff_t>(part.first + 1),
-                   arc.points.begin() + static_cast<std::ptrdiff_t>(part.last + 1));
+      append_points(tight, arc.points, part.first + 1, part.last + 1);
       return;
     }
     const bool other = part.ways.size() > 1 && length_of(part.ways[1]) + step_ < length_of(part.ways[0]);

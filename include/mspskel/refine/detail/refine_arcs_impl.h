@@ -112,14 +112,14 @@ class ArcRefinement {
     return strays;
   }
   // A leaf that centring has drawn back from its target goes there again, before anyone calls it a spur, and
-  // stays while the arcs near what has changed settle. That may draw back others, and lay arcs double.
+  // stays while the arcs near what has changed settle. That may draw back others. What centring has laid
+  // double is cut before, and settles with them.
   void settle_strays() {
     constexpr int kPasses = 3;
     ArcGraph settled = graph_;
     std::vector<Index> held = aim_strays();
-    bool unsettled = !held.empty();
-    if (cut() > 0) unsettled = true;
-    if (drop_spurs() > 0) unsettled = true;
+    const Index cuts = cut(), spurs = drop_spurs();
+    bool unsettled = !held.empty() || cuts > 0 || spurs > 0;
     for (int pass = 0; pass < kPasses && unsettled; ++pass) {
       center_part(graph_, arcs_near_changes(settled, graph_), solid_, options_.centering, execution_,
                   classes_.crossings, held);

@@ -36,6 +36,7 @@ class InnerNet {
   bool is_input() const { return kind_ == InnerSurface::kInput; }
   const SurfaceSnapshot& surface() const { return surface_; }
   const BoundingVolumeHierarchy& solid() const { return solid_; }
+  const Execution& execution() const { return execution_; }
 
   // Once, before anything below. Cost: two rays a vertex.
   void prepare() {

@@ -24,7 +24,7 @@ class InnerPaths {
  public:
   InnerPaths(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
              const Execution& execution = {}, InnerSurface kind = InnerSurface::kCoarser)
-      : net_(surface, solid, execution, kind), progress_(execution.progress) {}
+      : net_(surface, solid, execution, kind) {}
 
   bool is_input() const { return net_.is_input(); }
 
@@ -131,7 +131,7 @@ class InnerPaths {
     std::unordered_set<Index> goal;
     for (const auto& [distance, v] : net_.entries(b)) goal.insert(v);
     for (std::size_t popped = 0; !queue.empty() && places.size() < kLabels * marks_[0].size(); ++popped) {
-      if (popped % 1024 == 0) report_progress(progress_, "arcs", 0.5);
+      if (popped % 1024 == 0) report_progress(net_.execution().progress, "arcs", 0.5);
       const auto [cost, v, before] = queue.top();
       queue.pop();
       CocycleLabel label = before == kNone ? crossings(a, net_.point(v))
@@ -202,7 +202,6 @@ class InnerPaths {
   }
 
   InnerNet net_;
-  const ProgressCallback progress_;
   std::array<std::vector<Mark>, 2> marks_;  // per side and node; of `marked_` alone they mean something
   std::vector<Index> marked_;
   Landmarks landmarks_;      // of this net, where searches have come by many vertices
