@@ -258,6 +258,35 @@ TEST_CASE("The blunt ends of a plank beyond the legs that carry it are no limbs"
   }
 }
 
+TEST_CASE("The back of a chair is one limb that ends in the middle, and a low rail is none") {
+  constexpr int kWidth = 10, kLeg = 6;
+  for (const int height : {2, 3, 6, 8, 11}) {
+    VoxelSolid chair;
+    chair.box({0, 0, 0}, {kWidth, kWidth, 1});
+    chair.box({0, kWidth - 1, 0}, {kWidth, kWidth, 1 + height});
+    for (const int x : {0, kWidth - 1})
+      for (const int y : {0, kWidth - 1}) chair.box({x, y, -kLeg}, {x + 1, y + 1, 0});
+    for (const double noise : {0.0, 0.2}) {
+      CAPTURE(height, noise);
+      const Solid given(jittered(to_mesh(boundary(chair, 2)), 3, noise * 0.5));
+      std::size_t feet = 0, backs = 0;
+      for (const LimbTip& tip : tips_of(given)) {
+        const Vector3 target = given.model(tip.target);
+        if (target.z() < 0) {
+          ++feet;
+          continue;
+        }
+        ++backs;
+        CHECK(std::abs(target.x() - 0.5 * kWidth) < 0.1 * kWidth);
+        CHECK(std::abs(target.y() - (kWidth - 0.5)) < 0.3);
+        CHECK(target.z() > height - 0.5);
+      }
+      CHECK(feet == 4);
+      CHECK(backs == (height > 0.5 * kWidth ? 1 : 0));
+    }
+  }
+}
+
 TEST_CASE("A tube's surface lies at half of its depth, and its mouth is its girth; a corner's lies deeper") {
   SampleOptions options;
   options.count = 1;

@@ -19,6 +19,7 @@
 #include "refine/tripod_arcs.h"
 #include "support/arc_graphs.h"
 #include "support/solids.h"
+#include "topology/voxel_solids.h"
 
 using namespace mspskel;
 using namespace mspskel::test;
@@ -179,6 +180,26 @@ TEST_CASE("Equal teeth of a ring are told alike") {
         CHECK(counts.cycles == 1);
         CHECK(counts.leaves == teeth);
       }
+}
+
+TEST_CASE("The fins of a heat sink have a leaf each, in the middle of their ends, and their corners none") {
+  constexpr int kLength = 12, kHeight = 8, kGap = 2;
+  for (const int fins : {2, 3, 5}) {
+    VoxelSolid sink;
+    sink.box({0, 0, 0}, {kLength, fins + kGap * (fins - 1), 1});
+    for (int i = 0; i < fins; ++i)
+      sink.box({0, (1 + kGap) * i, 0}, {kLength, (1 + kGap) * i + 1, 1 + kHeight});
+    const ExtractResult result = extract_skeleton(to_mesh(boundary(sink, 2)));
+    const auto next = adjacency(result.skeleton);
+    CAPTURE(fins);
+    CHECK(count_graph(result.skeleton).leaves == fins);
+    for (std::size_t i = 0; i < next.size(); ++i) {
+      if (next[i].size() != 1) continue;
+      const Vector3& end = result.skeleton.nodes[i].position;
+      CHECK(std::abs(end.x() - 0.5 * kLength) < 0.1 * kLength);
+      CHECK(end.z() > 0.9 * kHeight);
+    }
+  }
 }
 
 TEST_CASE("Most spikes of one vertex on an input get their arcs, and stubs none") {

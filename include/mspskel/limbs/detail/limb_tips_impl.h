@@ -10,6 +10,7 @@
 #include "mspskel/limbs/detail/body_ends.h"
 #include "mspskel/limbs/detail/end_target.h"
 #include "mspskel/limbs/detail/limb_search.h"
+#include "mspskel/limbs/detail/plates.h"
 #include "mspskel/mesh/inner_distance.h"
 
 namespace mspskel {
@@ -186,6 +187,24 @@ inline void add_body_ends(const SurfaceSnapshot& surface, const std::vector<bool
   tips.erase(std::remove_if(tips.begin(), tips.end(), is_corner), tips.end());
 }
 
+// A plate is one limb or none: what of it was told by a corner goes. What is longer than the plate is high,
+// or sharper than a corner of a plate, is a limb of its own that ends in it.
+inline void judge_as_one(Plate plate, std::vector<FoundLimb>& limbs) {
+  constexpr double kSlack = 1.1, kHigher = 1.25;
+  const std::vector<Index>& part = plate.limb.part;
+  const auto ends_in_plate = [&](const FoundLimb& limb) {
+    return std::binary_search(part.begin(), part.end(), limb.tip.vertex);
+  };
+  const auto is_corner = [&](const FoundLimb& limb) {
+    const LimbMeasures& m = limb.tip.measures;
+    return ends_in_plate(limb) && m.slenderness < kSlack * kPi &&
+           m.depth < kHigher * plate.limb.tip.measures.depth;
+  };
+  limbs.erase(std::remove_if(limbs.begin(), limbs.end(), is_corner), limbs.end());
+  if (plate.stands_out && std::none_of(limbs.begin(), limbs.end(), ends_in_plate))
+    limbs.push_back(std::move(plate.limb));
+}
+
 }  // namespace detail
 
 MSPSKEL_INLINE std::vector<LimbTip> find_limb_tips(const SurfaceSnapshot& surface,
@@ -195,8 +214,10 @@ MSPSKEL_INLINE std::vector<LimbTip> find_limb_tips(const SurfaceSnapshot& surfac
   const SurfaceWays ways(surface);
   const auto middle = detail::middle_of_components(surface, ways, solid, slices);
   const std::vector<double> distance = inner_distances(surface, ways, solid, middle, execution);
-  const std::vector<detail::FoundLimb> limbs =
+  std::vector<detail::FoundLimb> limbs =
       detail::LimbTipSearch(surface, solid, slices, options, distance).run();
+  for (detail::Plate& plate : detail::PlateSearch(surface, solid, options).run())
+    detail::judge_as_one(std::move(plate), limbs);
   constexpr double kLobe = 0.45;  // half of a tube and of a plank, a third of a disc round its stem
   std::vector<LimbTip> tips;
   for (const detail::FoundLimb& limb : limbs) {

@@ -103,7 +103,7 @@ class LimbCompletion {
   Index reach_equals() {
     Index added = 0;
     for (const LimbTip& tip :
-         equal_limbs(graph_, surface_, solid_, least_protrusion(), inner_.is_input(), execution_)) {
+         equal_limbs(graph_, surface_, solid_, tips_, least_protrusion(), inner_.is_input(), execution_)) {
       if (uncovered_.distance(tip.vertex) <= uncovered(tip) || !reach_tip(tip)) continue;
       tips_.push_back(tip);
       ++added;
@@ -113,15 +113,13 @@ class LimbCompletion {
 
   double least_protrusion() const { return std::max(kLeastProtrusion * options_.smallest, step_); }
 
-  static constexpr double kSlack = 1.2;  // of the corners of slabs: levels bend round the balls of arcs
-
   // The level at which a part is a limb: slender by itself and no corner, or a bump that is no wider than
   // what carries it.
   std::optional<PartLevel> limb_level(const SlenderPart& part) {
     const PartLevel& own = part.slenderest;
     if (own.depth > 0 && own.slenderness() >= uncovered_slenderness(own.depth_over_mouth(), options_) &&
         !is_slab_corner(own.depth, own.depth_over_mouth(), own.slenderness(),
-                        2 * uncovered_.carrier(part.top), kSlack))
+                        2 * uncovered_.carrier(part.top), kSlabSlack))
       return own;
     if (const std::optional<PartLevel> twig = twig_level(part)) return twig;
     const PartLevel& level = part.narrowest;
@@ -138,7 +136,8 @@ class LimbCompletion {
     if (part.slenderest_of_few.depth == 0) return std::nullopt;
     const auto is_corner = [&](const PartLevel& level) {
       const double thickness = level.mouth_thickness();
-      return is_slab_corner(level.depth, level.depth_over_mouth(), level.slenderness(), thickness, kSlack) &&
+      return is_slab_corner(level.depth, level.depth_over_mouth(), level.slenderness(), thickness,
+                            kSlabSlack) &&
              thickness >= kThinner * uncovered_.thickness_beside(part.top, level, solid_);
     };
     const PartLevel& own = part.slenderest_of_few;

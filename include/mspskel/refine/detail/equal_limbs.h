@@ -34,10 +34,11 @@ inline std::vector<Ball> balls_of_core(const ArcGraph& graph, const ArcLeaves& l
 
 // The parts without a leaf arc that are as one that has one. Limbs are told by their distance from the middle
 // of the shape, which cuts those of a ring aslant, or from arcs that other limbs may lie along. Beyond the
-// balls of what is no leaf arc all of them are measured alike. `least` and `few` as in UncoveredSurface.
-// Cost: O(vertices · log balls + parts²).
+// balls of what is no leaf arc all of them are measured alike. `told_limbs` are those that were told before.
+// `least` and `few` as in UncoveredSurface. Cost: O(vertices · log balls + parts²).
 inline std::vector<LimbTip> equal_limbs(const ArcGraph& graph, const SurfaceSnapshot& surface,
-                                        const BoundingVolumeHierarchy& solid, double least, bool few,
+                                        const BoundingVolumeHierarchy& solid,
+                                        const std::vector<LimbTip>& told_limbs, double least, bool few,
                                         const Execution& execution) {
   const auto at = graph.incidence();
   const ArcLeaves leaves(graph, at);
@@ -52,12 +53,21 @@ inline std::vector<LimbTip> equal_limbs(const ArcGraph& graph, const SurfaceSnap
   std::vector<LimbTip> tips;
   for (const SlenderPart& part : parts) tips.push_back(beyond.limb(part.top, part.slenderest, solid));
   const std::vector<std::size_t> leaf = leaves_of_tips(graph, leaves, tips);
+  // Where a deeper limb ends, at a corner of its end perhaps, that corner is none of its own.
+  constexpr double kDeeper = 2;
+  std::vector<double> depth(leaves.leaf.size(), 0.0);
+  const std::vector<std::size_t> leaf_of_limb = leaves_of_tips(graph, leaves, told_limbs);
+  for (std::size_t i = 0; i < told_limbs.size(); ++i)
+    if (leaf_of_limb[i] != kNoLeaf) depth[leaf_of_limb[i]] = told_limbs[i].measures.depth;
+  const auto is_told = [&](std::size_t i) {
+    return leaf[i] != kNoLeaf && depth[leaf[i]] < kDeeper * parts[i].slenderest.depth;
+  };
   std::vector<LimbTip> limbs;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (leaf[i] != kNoLeaf) continue;
     std::size_t told = 0, untold = 0;
     for (std::size_t j = 0; j < parts.size(); ++j)
-      if (are_alike(beyond, parts[i], parts[j])) ++(leaf[j] != kNoLeaf ? told : untold);
+      if (are_alike(beyond, parts[i], parts[j])) ++(is_told(j) ? told : untold);
     // The corners of a block are alike too, and one leaf stands for all of them.
     const bool blunt = is_block_corner(parts[i].narrowest.depth_over_mouth());
     if (told > (blunt ? untold : 0)) limbs.push_back(tips[i]);

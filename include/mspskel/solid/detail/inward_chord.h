@@ -1,4 +1,4 @@
-// The way through the solid that begins at a vertex of the surface.
+// The way through the solid that begins at a place on the surface.
 #pragma once
 
 #include <optional>
@@ -14,13 +14,12 @@ struct InwardChord {
   double length = 0.0;
 };
 
-// Against the vertex's normal. A vertex of a coarser surface may lie outside the solid: the chord starts
-// where the ray enters.
-inline std::optional<InwardChord> inward_chord(const SurfaceSnapshot& surface,
-                                               const BoundingVolumeHierarchy& solid, Index v) {
+// From a place on a surface along the unit vector `inward`. On a coarser surface it may lie outside the
+// solid: the chord starts where the ray enters.
+inline std::optional<InwardChord> inward_chord(const BoundingVolumeHierarchy& solid, const Vector3& place,
+                                               const Vector3& inward) {
   constexpr double kSkip = 1e-7;  // far less than a chord and far more than rounding
-  const Vector3 inward = -surface.normal[v];
-  Vector3 start = surface.position[v] + kSkip * inward;
+  Vector3 start = place + kSkip * inward;
   if (!solid.inside(start)) {
     const auto entry = solid.first_hit(start, inward);
     if (!entry) return std::nullopt;
@@ -30,6 +29,12 @@ inline std::optional<InwardChord> inward_chord(const SurfaceSnapshot& surface,
   const auto hit = solid.first_hit(start, inward);
   if (!hit || hit->distance <= 0) return std::nullopt;
   return InwardChord{start, hit->distance};
+}
+
+// Against the vertex's normal.
+inline std::optional<InwardChord> inward_chord(const SurfaceSnapshot& surface,
+                                               const BoundingVolumeHierarchy& solid, Index v) {
+  return inward_chord(solid, surface.position[v], -surface.normal[v]);
 }
 
 // Half the chord inward from a vertex; 0 if there is none.
