@@ -11,6 +11,7 @@
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/mesh/build_mesh.h"
 #include "mspskel/refine/detail/arc_leaves.h"
+#include "mspskel/refine/detail/equal_limbs.h"
 #include "mspskel/refine/prune_branches.h"
 #include "mspskel/refine/refine_arcs.h"
 #include "mspskel/samples/polygonise.h"
@@ -180,6 +181,24 @@ TEST_CASE("Equal teeth of a ring are told alike") {
         CHECK(counts.cycles == 1);
         CHECK(counts.leaves == teeth);
       }
+}
+
+TEST_CASE("What is as a told part is told, and blunt parts do as most of their like") {
+  // Sizes of parts, alike within a fifth, and what was told of them.
+  const std::vector<double> size{1.0, 1.1, 1.25, 3.0, 3.1, 3.2, 9.0};
+  const auto alike = [&](std::size_t i, std::size_t j) { return about_equal(size[i], size[j]); };
+  const std::vector<bool> told{true, false, false, true, false, false, false};
+  const auto is_told = [&](std::size_t i) { return static_cast<bool>(told[i]); };
+  const auto answers = [&](bool blunt) {
+    return detail::equal_answers(size.size(), is_told, alike, [&](std::size_t) { return blunt; });
+  };
+  CHECK(answers(false) == std::vector<bool>{true, true, false, true, true, true, false});
+  CHECK(answers(true) == std::vector<bool>(size.size(), false));
+  const std::vector<bool> most{true, true, false};
+  CHECK(detail::equal_answers(
+            3, [&](std::size_t i) { return static_cast<bool>(most[i]); },
+            [](std::size_t, std::size_t) { return true; },
+            [](std::size_t) { return true; }) == std::vector<bool>(3, true));
 }
 
 TEST_CASE("The fins of a heat sink have a leaf each, in the middle of their ends, and their corners none") {

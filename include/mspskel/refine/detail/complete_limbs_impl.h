@@ -147,12 +147,19 @@ class LimbCompletion {
     return std::nullopt;
   }
 
-  // The parts that are limbs, measured beyond the balls, the deepest first.
+  // The parts that are limbs, measured beyond the balls, and what is as one of them, the deepest first.
   std::vector<LimbTip> uncovered_limbs() {
+    const std::vector<SlenderPart> parts = uncovered_.parts(least_protrusion(), inner_.is_input());
+    std::vector<std::optional<PartLevel>> levels;
+    for (const SlenderPart& part : parts) levels.push_back(limb_level(part));
+    const std::vector<bool> limb = equal_answers(
+        parts.size(), [&](std::size_t i) { return levels[i].has_value(); },
+        [&](std::size_t i, std::size_t j) { return are_alike(uncovered_, parts[i], parts[j]); },
+        [&](std::size_t i) { return is_block_corner(parts[i].narrowest.depth_over_mouth()); });
     std::vector<LimbTip> limbs;
-    for (const SlenderPart& part : uncovered_.parts(least_protrusion(), inner_.is_input()))
-      if (const std::optional<PartLevel> level = limb_level(part))
-        limbs.push_back(uncovered_.limb(part.top, *level, solid_));
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      if (limb[i])
+        limbs.push_back(uncovered_.limb(parts[i].top, levels[i].value_or(parts[i].slenderest), solid_));
     std::sort(limbs.begin(), limbs.end(), [](const LimbTip& a, const LimbTip& b) {
       return a.measures.depth != b.measures.depth ? a.measures.depth > b.measures.depth : a.vertex < b.vertex;
     });

@@ -19,6 +19,20 @@ inline bool are_alike(const UncoveredSurface& surface, const SlenderPart& a, con
          about_equal(surface.carrier(a.top), surface.carrier(b.top));
 }
 
+// Which of the first `count` parts are limbs, as some were told to be: one that is as another that was told
+// is one, too. Blunt parts, as the corners of a block are, do as most of those that are like them. O(parts²).
+template <class IsTold, class AreAlike, class IsBlunt>
+std::vector<bool> equal_answers(std::size_t count, IsTold is_told, AreAlike are_alike, IsBlunt is_blunt) {
+  std::vector<bool> limb(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    std::size_t told = 0, untold = 0;
+    for (std::size_t j = 0; j < count; ++j)
+      if (i == j || are_alike(i, j)) ++(is_told(j) ? told : untold);
+    limb[i] = told > (is_blunt(i) ? untold : 0);
+  }
+  return limb;
+}
+
 // The balls of the arcs that do not end in a leaf, and of the hubs where they and leaf arcs meet.
 inline std::vector<Ball> balls_of_core(const ArcGraph& graph, const ArcLeaves& leaves,
                                        const std::vector<std::vector<Index>>& at, const ArcBalls& balls) {
@@ -62,16 +76,14 @@ inline std::vector<LimbTip> equal_limbs(const ArcGraph& graph, const SurfaceSnap
   const auto is_told = [&](std::size_t i) {
     return leaf[i] != kNoLeaf && depth[leaf[i]] < kDeeper * parts[i].slenderest.depth;
   };
+  // One leaf stands for all corners of a block.
+  const std::vector<bool> is_limb = equal_answers(
+      parts.size(), is_told,
+      [&](std::size_t i, std::size_t j) { return are_alike(beyond, parts[i], parts[j]); },
+      [&](std::size_t i) { return is_block_corner(parts[i].narrowest.depth_over_mouth()); });
   std::vector<LimbTip> limbs;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (leaf[i] != kNoLeaf) continue;
-    std::size_t told = 0, untold = 0;
-    for (std::size_t j = 0; j < parts.size(); ++j)
-      if (are_alike(beyond, parts[i], parts[j])) ++(is_told(j) ? told : untold);
-    // The corners of a block are alike too, and one leaf stands for all of them.
-    const bool blunt = is_block_corner(parts[i].narrowest.depth_over_mouth());
-    if (told > (blunt ? untold : 0)) limbs.push_back(tips[i]);
-  }
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    if (is_limb[i] && leaf[i] == kNoLeaf) limbs.push_back(tips[i]);
   return limbs;
 }
 
