@@ -96,9 +96,39 @@ inline bool lead_to_target(std::vector<Vector3>& points, const LimbTip& tip, Inn
   return points != before;
 }
 
-// The ends of arcs without a joint: each half of one is led to the target of a tip on it, the nearest of
-// those that are no nearer to the other end, if it ends farther than a quarter of `slack` half widths from
-// it.
+// Half of a lone arc, from its middle to the given end.
+inline std::vector<Vector3> half_of(const Arc& arc, int end) {
+  std::vector<Vector3> whole = points_from(arc, 1 - end);
+  whole.erase(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(whole.size() / 2));
+  return whole;
+}
+
+// The tip on a lone arc that one of its ends is to be led to: the nearest of those that only this half sees,
+// or that are no nearer to the other end. Nothing if there is none.
+inline const LimbTip* tip_of_end(const ArcGraph& graph, Index a, int end, const std::vector<LimbTip>& tips,
+                                 const BoundingVolumeHierarchy& solid) {
+  const Arc& arc = graph.arcs[a];
+  const Vector3 &here = graph.hub_position[arc.hub[end]], &there = graph.hub_position[arc.hub[1 - end]];
+  const std::vector<Vector3> own = half_of(arc, end), other = half_of(arc, 1 - end);
+  const LimbTip* nearest = nullptr;
+  for (const LimbTip& tip : tips) {
+    const Index hub = graph.hub_of_vertex[tip.vertex];
+    const bool on_arc =
+        graph.arc_of_vertex[tip.vertex] == a || (hub != kNone && (hub == arc.hub[0] || hub == arc.hub[1]));
+    if (tip.kind == TipKind::kWayEnd || !on_arc) continue;
+    const auto seen_from = [&](const std::vector<Vector3>& half) {
+      return last_in_sight(half, tip, solid) != kNoLeaf;
+    };
+    const double distance = (tip.target - here).norm();
+    const bool by_own = seen_from(own), by_other = seen_from(other);
+    if (by_own != by_other ? by_other : distance > (tip.target - there).norm()) continue;
+    if (nearest == nullptr || distance < (nearest->target - here).norm()) nearest = &tip;
+  }
+  return nearest;
+}
+
+// The ends of arcs without a joint: each half of one is led to the target of its tip, if it ends farther than
+// a quarter of `slack` half widths from it.
 inline void aim_lone_arcs(ArcGraph& graph, InnerGraph& inner, const std::vector<LimbTip>& tips, double step,
                           double slack, std::vector<Index>& aimed) {
   constexpr double kStricter = 0.25;  // no joint holds them: in flat bars centring swings them about
@@ -107,25 +137,14 @@ inline void aim_lone_arcs(ArcGraph& graph, InnerGraph& inner, const std::vector<
     Arc& arc = graph.arcs[a];
     if (!arc.alive || at[arc.hub[0]].size() != 1 || at[arc.hub[1]].size() != 1) continue;
     for (const int end : {0, 1}) {
-      const Vector3 here = graph.hub_position[arc.hub[end]], there = graph.hub_position[arc.hub[1 - end]];
-      const LimbTip* nearest = nullptr;
-      for (const LimbTip& tip : tips) {
-        const double distance = (tip.target - here).norm();
-        const Index hub = graph.hub_of_vertex[tip.vertex];
-        const bool own = graph.arc_of_vertex[tip.vertex] == a ||
-                         (hub != kNone && (hub == arc.hub[0] || hub == arc.hub[1]));
-        if (tip.kind == TipKind::kWayEnd || !own || distance > (tip.target - there).norm()) continue;
-        if (nearest == nullptr || distance < (nearest->target - here).norm()) nearest = &tip;
-      }
-      if (nearest == nullptr) continue;
-      const double half_width = nearest->measures.half_width;
-      if ((here - nearest->target).norm() <= kStricter * slack * half_width) continue;
+      const LimbTip* tip = tip_of_end(graph, a, end, tips, inner.solid());
+      if (tip == nullptr) continue;
+      const double half_width = tip->measures.half_width;
+      if ((graph.hub_position[arc.hub[end]] - tip->target).norm() <= kStricter * slack * half_width) continue;
+      std::vector<Vector3> half = half_of(arc, end);
+      if (half.size() < 2 || !lead_to_target(half, *tip, inner, step_for_width(half_width, step))) continue;
       std::vector<Vector3> whole = points_from(arc, 1 - end);
-      const auto middle = whole.begin() + static_cast<std::ptrdiff_t>(whole.size() / 2);
-      std::vector<Vector3> half(middle, whole.end());
-      if (half.size() < 2 || !lead_to_target(half, *nearest, inner, step_for_width(half_width, step)))
-        continue;
-      whole.erase(middle, whole.end());
+      whole.resize(whole.size() / 2);
       whole.insert(whole.end(), half.begin(), half.end());
       graph.hub_position[arc.hub[end]] = whole.back();
       if (end == 0) std::reverse(whole.begin(), whole.end());

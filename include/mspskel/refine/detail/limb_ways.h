@@ -119,11 +119,10 @@ class LimbWays {
     return way.size() > 2;
   }
 
-  // From the middle below v to the skeleton, where that is nearest on the arc that v belongs to or of all.
-  // From the end of a leaf, which is nearest across a gap, that arc would only go on into this limb: then the
-  // nearest points of other arcs are tried, for the shortest way.
+  // From the middle below v to the skeleton, where that is nearest on the arc that v belongs to or of all. False
+  // where that lies across a gap: the way to it through the solid is long, and may come by other arcs.
   bool find_way_through(Index v, const NearPoints& points, GraphPoint& start, std::vector<Vector3>& way) {
-    constexpr int kTried = 8;
+    constexpr double kStraight = 2;  // distances
     start = points.front().second;
     if (const Index arc = graph_.arc_of_vertex[v]; arc != kNone && graph_.arcs[arc].alive) {
       const auto on_arc = [&](const auto& p) { return p.second.arc == arc; };
@@ -132,29 +131,8 @@ class LimbWays {
     }
     const Vector3& from = inner_.point(v);
     // From the limb, which leads to the body by few vertices; from the body all of it comes first.
-    if (!inner_.path(from, start.position, way, kMostOfWay)) return false;
-    if (!is_leaf_end(start)) return true;
-    double length = length_of(way);
-    std::vector<Index> tried;
-    std::vector<Vector3> other;
-    for (const auto& [distance, point] : points) {
-      if (distance >= length || tried.size() == kTried) break;
-      if (point.arc == kNone || std::find(tried.begin(), tried.end(), point.arc) != tried.end()) continue;
-      tried.push_back(point.arc);
-      if (!inner_.path(from, point.position, other, kMostOfWay) || length_of(other) >= length) continue;
-      length = length_of(other);
-      start = point;
-      way.swap(other);
-    }
-    return true;
-  }
-
-  bool is_leaf_end(const GraphPoint& point) const {
-    if (point.hub == kNone) return false;
-    int arcs = 0;
-    for (const Arc& arc : graph_.arcs)
-      if (arc.alive) arcs += (arc.hub[0] == point.hub) + (arc.hub[1] == point.hub);
-    return arcs == 1;
+    return inner_.path(from, start.position, way, kMostOfWay) &&
+           length_of(way) <= kStraight * (start.position - from).norm();
   }
 
   const ArcGraph& graph_;
