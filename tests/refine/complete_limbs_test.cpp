@@ -183,6 +183,28 @@ TEST_CASE("Equal teeth of a ring are told alike") {
       }
 }
 
+TEST_CASE("The arc of a mushroom or a tack ends in the middle of its head") {
+  for (const double half_height : {0.3, 0.5})
+    for (const double stem : {0.1, 0.2}) {
+      ImplicitSolid mushroom;
+      mushroom.low = Vector3(-1.1, -1.1, -1.7);
+      mushroom.high = Vector3(1.1, 1.1, 0.7);
+      mushroom.value = [=](const Vector3& x) {
+        const double head = Vector3(x.x(), x.y(), x.z() / half_height).norm() - 1;
+        return std::min(half_height * head,
+                        std::max(std::hypot(x.x(), x.y()) - stem, std::abs(x.z() + 0.75) - 0.75));
+      };
+      const ExtractResult result = extract_skeleton(to_mesh(polygonise(mushroom, 4000, 0.2)));
+      CAPTURE(half_height, stem);
+      CHECK(count_graph(result.skeleton).leaves == 2);
+      const auto next = adjacency(result.skeleton);
+      double nearest = 1e9;
+      for (std::size_t n = 0; n < next.size(); ++n)
+        if (next[n].size() == 1) nearest = std::min(nearest, result.skeleton.nodes[n].position.norm());
+      CHECK(nearest < 0.3 * half_height);
+    }
+}
+
 TEST_CASE("What is as a told part is told, and blunt parts do as most of their like") {
   // Sizes of parts, alike within a fifth, and what was told of them.
   const std::vector<double> size{1.0, 1.1, 1.25, 3.0, 3.1, 3.2, 9.0};

@@ -13,9 +13,9 @@ namespace mspskel {
 namespace detail {
 
 // What is left of each component without its limbs. A body that is longer than wide ends twice along its
-// principal axis. One that is not ends opposite to its limb if it has a single one, and twice along the axis
-// that stands apart if it has none. A limb that leaves the body near such an end, or has the end on its
-// surface, stands for it.
+// principal axis. One that is not ends opposite to its limb if it has a single one (in its middle if it is
+// flat there, as the head of a tack, and has no handle), and twice along the axis that stands apart if it has
+// none. A limb that leaves the body near such an end, or has the end on its surface, stands for it.
 class BodyEnds {
  public:
   BodyEnds(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
@@ -43,8 +43,8 @@ class BodyEnds {
 
   Index limb_count(Index component) const { return body_[component].limbs; }
 
-  // The ends of one component's body that no limb stands for.
-  std::vector<LimbTip> run(Index component) const {
+  // The ends of one component's body that no limb stands for. `loops`: whether it has handles.
+  std::vector<LimbTip> run(Index component, bool loops) const {
     const Body& body = body_[component];
     std::vector<LimbTip> ends;
     if (!(body.area > 0) || !solid_.inside(body.centre)) return ends;
@@ -55,9 +55,15 @@ class BodyEnds {
       for (const double sign : {-1.0, 1.0}) add_end(component, sign * solver.eigenvectors().col(2), ends);
     if (body.limbs == 0 && ends.empty()) add_ends_of_axis(component, solver, ends);
     if (body.limbs != 1 || !ends.empty()) return ends;
-    for (const FoundLimb& limb : limbs_)
-      if (limb.tip.kind == TipKind::kLimb && surface_.component[limb.tip.vertex] == component)
+    Index others = 0;
+    for (const FoundLimb& limb : limbs_) {
+      if (surface_.component[limb.tip.vertex] != component) continue;
+      if (limb.tip.kind == TipKind::kLimb)
         add_end(component, (body.centre - limb.root).normalized(), ends);
+      else
+        ++others;
+    }
+    if (ends.empty() && others == 0 && !loops) ends.push_back(end_at(component, body.centre));
     return ends;
   }
 
@@ -98,19 +104,28 @@ class BodyEnds {
       if (surface_.component[limb.tip.vertex] == component &&
           (limb.root - centre).dot(direction) > kNear * hit->distance)
         return;
+    const Vector3 end = centre + hit->distance * direction;
+    LimbTip tip = end_at(component, end);
+    if (in_limb_[tip.vertex]) return;
+    tip.target = end - kAhead * radius * direction;
+    tip.measures.depth = hit->distance;
+    ends.push_back(std::move(tip));
+  }
+
+  // In the middle of the body or on its surface. It is as wide as the ball in the middle.
+  LimbTip end_at(Index component, const Vector3& end) const {
     LimbTip tip;
     tip.kind = TipKind::kBodyEnd;
-    const Vector3 end = centre + hit->distance * direction;
-    tip.target = end - kAhead * radius * direction;
+    tip.target = end;
     tip.vertex = nearest_vertex(component, end);
-    if (in_limb_[tip.vertex]) return;
-    tip.measures.depth = hit->distance;
+    const double radius = solid_.distance(body_[component].centre);
+    tip.measures.depth = radius;
     tip.measures.half_width = 0.25 * radius;
     for (Index v = 0; v < surface_.vertex_count(); ++v)
       if (is_of(component, v) &&
           (surface_.position[v] - surface_.position[tip.vertex]).norm() <= 0.5 * radius)
         tip.cap.push_back(v);
-    ends.push_back(std::move(tip));
+    return tip;
   }
 
   bool is_of(Index component, Index v) const {
