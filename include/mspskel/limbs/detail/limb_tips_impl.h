@@ -187,20 +187,25 @@ inline void add_body_ends(const SurfaceSnapshot& surface, const std::vector<bool
   tips.erase(std::remove_if(tips.begin(), tips.end(), is_corner), tips.end());
 }
 
-// A plate is one limb or none: what of it was told by a corner goes. What is longer than the plate is high,
-// or sharper than a corner of a plate, is a limb of its own that ends in it.
+// A plate is one limb or none. What was told by a corner of it goes, be that the corner alone or most of the
+// plate, as it reaches from afar, and so does what is less deep than the plate is thick. Other limbs that end
+// in it stay, and stand for it.
 inline void judge_as_one(Plate plate, std::vector<FoundLimb>& limbs) {
-  constexpr double kSlack = 1.1, kHigher = 1.25;
+  constexpr double kSlack = 1.2, kMost = 0.6, kAll = 1.25;  // of the plate's depth
   const std::vector<Index>& part = plate.limb.part;
+  const LimbMeasures& whole = plate.limb.tip.measures;
+  const double thickness = 2 * whole.half_thickness;
   const auto ends_in_plate = [&](const FoundLimb& limb) {
     return std::binary_search(part.begin(), part.end(), limb.tip.vertex);
   };
   const auto is_corner = [&](const FoundLimb& limb) {
     const LimbMeasures& m = limb.tip.measures;
-    return ends_in_plate(limb) && m.slenderness < kSlack * kPi &&
-           m.depth < kHigher * plate.limb.tip.measures.depth;
+    const bool most = m.depth > kMost * whole.depth && m.depth < kAll * whole.depth;
+    return most || m.depth < thickness ||
+           is_slab_corner(m.depth, m.depth_over_mouth, m.slenderness, thickness, kSlack);
   };
-  limbs.erase(std::remove_if(limbs.begin(), limbs.end(), is_corner), limbs.end());
+  const auto goes = [&](const FoundLimb& limb) { return ends_in_plate(limb) && is_corner(limb); };
+  limbs.erase(std::remove_if(limbs.begin(), limbs.end(), goes), limbs.end());
   if (plate.stands_out && std::none_of(limbs.begin(), limbs.end(), ends_in_plate))
     limbs.push_back(std::move(plate.limb));
 }
