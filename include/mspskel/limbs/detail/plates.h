@@ -41,12 +41,14 @@ class PlateSearch {
       normal_.push_back(surface.face_normal_times_twice_area(f).normalized());
   }
 
-  // Cost: up to two rays a face that a plate comes by; nothing where no edge is sharp.
+  // Cost: up to two rays a face that a plate comes by, at most kWork times the faces; nothing where no edge
+  // is sharp.
   std::vector<Plate> run() {
+    constexpr std::size_t kWork = 16;
     std::vector<Plate> plates;
     for (const auto& [h, length] : creases()) {
       const Index side = SurfaceSnapshot::face(h);
-      if (tried_[side]) continue;
+      if (tried_[side] || work_ > kWork * tried_.size()) continue;
       if (std::optional<Plate> plate = grow(side, length)) plates.push_back(std::move(*plate));
     }
     return plates;
@@ -107,6 +109,8 @@ class PlateSearch {
            3;
   }
 
+  double area_of(Index f) const { return 0.5 * surface_.face_normal_times_twice_area(f).norm(); }
+
   // From a point in the solid to its surface; infinity where that is farther than `most`.
   double length_within(const Vector3& x, const Vector3& direction, double most) const {
     const auto hit = solid_.first_hit(x, direction, most);
@@ -155,6 +159,7 @@ class PlateSearch {
         if (is_side(f, slab.across)) tried_[f] = true;
         faces.push_back(f);
       }
+    work_ += faces.size();
     return faces;
   }
 
@@ -179,6 +184,7 @@ class PlateSearch {
     return mean.thickness > 0 ? mean : slab;
   }
 
+  // From a face beside a crease of that length.
   std::optional<Plate> grow(Index side, double crease) {
     constexpr int kTimes = 3;
     constexpr std::size_t kLeastFaces = 16;
@@ -197,25 +203,30 @@ class PlateSearch {
       faces = std::move(again);
       if (same) break;
     }
-    double area = 0;
-    for (const Index f : faces) area += 0.5 * surface_.face_normal_times_twice_area(f).norm();
-    if (!(area < half_area_[surface_.component[surface_.origin[3 * side]]])) return std::nullopt;
+    return measured(slab, faces);
+  }
+
+  // The faces that have just grown as a plate; nothing where they are none.
+  std::optional<Plate> measured(const Slab& slab, const std::vector<Index>& faces) const {
+    constexpr double kStraight = 0.4, kBelow = 0.3;  // heights
     const std::optional<Root> root = find_root(faces, slab.across);
     if (!root || slab.thickness > kThin * root->width) return std::nullopt;
     Plate plate;
     FoundLimb& limb = plate.limb;
     limb.part = vertices_of(faces);
     limb.root = root->middle;
-    double bottom = 0, height = 0;
+    double area = 0, bottom = 0, height = 0;
+    for (const Index f : faces) area += area_of(f);
     for (const Index v : limb.part) {
       bottom = std::min(bottom, height_of(v, *root));
       height = std::max(height, height_of(v, *root));
     }
     // A top on legs and a wall between walls have other roots.
-    constexpr double kStraight = 0.4, kBelow = 0.3;  // heights
-    if (root->unevenness > kStraight * height || bottom < -kBelow * height) return std::nullopt;
+    if (root->unevenness > kStraight * height || bottom < -kBelow * height ||
+        area >= half_area_[surface_.component[limb.part.front()]] ||
+        !(height > kLeastTipDepth * options_.smallest))
+      return std::nullopt;
     const PartLevel level{height, area, 2 * (root->width + slab.thickness)};
-    if (!(height > kLeastTipDepth * options_.smallest)) return std::nullopt;
     plate.stands_out = level.slenderness() >= options_.slenderness && !is_blunt(level.depth_over_mouth());
     set_measures(limb.tip.measures, level, slab.thickness);
     set_end(limb, faces, *root, level);
@@ -232,7 +243,7 @@ class PlateSearch {
     double area = 0, length = 0;
     std::vector<Index> round;
     for (const Index f : faces) {
-      const double own = surface_.face_normal_times_twice_area(f).norm();
+      const double own = area_of(f);
       centre += own * middle(f);
       area += own;
       for (Index h = 3 * f; h < 3 * f + 3; ++h) {
@@ -291,7 +302,7 @@ class PlateSearch {
     double area = 0;
     for (const Index f : faces) {
       if ((middle(f) - root.middle).dot(root.up) < level.depth - end) continue;
-      const double own = surface_.face_normal_times_twice_area(f).norm();
+      const double own = area_of(f);
       tip.target += own * middle(f);
       area += own;
     }
@@ -313,6 +324,7 @@ class PlateSearch {
   std::vector<bool> tried_;        // faces of sides that have grown
   std::vector<Index> grown_;       // the last growth that came by
   Index growth_ = 0;
+  std::size_t work_ = 0;       // faces that plates came by
   std::vector<double> chord_;  // inward from each face; negative where it was not asked for
 };
 
