@@ -7,7 +7,6 @@
 
 #include "mspskel/base/counted.h"
 #include "mspskel/base/error.h"
-#include "mspskel/io/write_mesh.h"
 
 namespace mspskel::cli {
 namespace {
@@ -228,12 +227,7 @@ MeshInput prepare_mesh(const PolygonSoup& soup, const RepairSettings& settings, 
   }
   if (settings.unite && !input.wrapped) join_shells(input, soup, settings, execution);
   input.built.warnings.insert(input.built.warnings.begin(), soup.warnings.begin(), soup.warnings.end());
-  write_surface(input, settings);
   return input;
-}
-
-void write_surface(const MeshInput& input, const RepairSettings& settings) {
-  if (!settings.write_mesh.empty()) write_mesh(settings.write_mesh, input.built.mesh);
 }
 
 MeshInput wrap_mesh(const MeshInput& input, const PolygonSoup& soup, const RepairSettings& settings,
