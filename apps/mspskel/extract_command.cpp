@@ -151,7 +151,8 @@ void segment(const ExtractSettings& settings, Extraction& extraction) {
 void add_rig(const ExtractSettings& settings, Extraction& extraction) {
   const Stopwatch rigging;
   ExtractResult& result = extraction.made.result;
-  extraction.rig = make_rig(result.surface, result.skeleton, settings.rigging);
+  extraction.rig =
+      make_rig(result.surface, result.skeleton, settings.rigging, settings.run.extract.execution.progress);
   result.seconds.emplace_back("rig", rigging.seconds());
   for (const std::string& pose : settings.poses)
     extraction.pose.push_back(parse_joint_turn(*extraction.rig, pose));
@@ -276,9 +277,9 @@ std::string bytes_of(const std::string& output, const ExtractSettings& settings,
   if (is_rig_text(output)) return format_rig_text(*extraction.rig);
   const CheckedExtraction& made = extraction.made;
   if (is_page(output))
-    return format_viewer_page(make_page_scene(settings.input, made, extraction.facts,
-                                              extraction.segmentation ? &*extraction.segmentation : nullptr,
-                                              extraction.rig ? &*extraction.rig : nullptr));
+    return format_viewer_page(make_page_scene(
+        settings.input, made, extraction.facts, extraction.segmentation ? &*extraction.segmentation : nullptr,
+        extraction.rig ? &*extraction.rig : nullptr, settings.run.extract.execution));
   return format_skeleton(made.input.of_file(made.result.skeleton), skeleton_format_of(output),
                          extraction.reported ? report_text(extraction.facts) : "",
                          settings.root.resolve(made.input.repair.openings));

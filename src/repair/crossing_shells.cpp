@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "disjoint_sets.h"
-#include "watch.h"
+#include "mspskel/base/watch.h"
 
 namespace mspskel::detail {
 namespace {

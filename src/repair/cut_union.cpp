@@ -12,7 +12,7 @@
 #include "disjoint_sets.h"
 #include "face_cutter.h"
 #include "face_set.h"
-#include "watch.h"
+#include "mspskel/base/watch.h"
 
 namespace mspskel::detail {
 namespace {

@@ -14,10 +14,10 @@
 #include "inflated_shells.h"
 #include "merge_short_edges.h"
 #include "mspskel/base/error.h"
+#include "mspskel/base/watch.h"
 #include "mspskel/mesh/build_mesh.h"
 #include "shell_grid.h"
 #include "split_long_edges.h"
-#include "watch.h"
 #include "whole_pieces.h"
 
 namespace mspskel {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mspskel/base/value_at_rank.h"
+#include "mspskel/base/watch.h"
 #include "mspskel/limbs/detail/growing_parts.h"
 #include "mspskel/limbs/detail/limb_end.h"
 #include "mspskel/limbs/detail/part_level.h"
@@ -42,13 +43,16 @@ class LimbTipSearch {
         end_(surface),
         flooded_(surface.position.size(), 0) {}
 
-  std::vector<FoundLimb> run() {
+  // Throws Cancelled.
+  std::vector<FoundLimb> run(const ProgressCallback& progress) {
+    Watch watch(progress, "arcs");
     std::vector<Index> reached, place(surface_.position.size(), kNone);
     for (Index v = 0; v < surface_.vertex_count(); ++v)
       if (std::isfinite(distance_[v])) reached.push_back(v);
     GrowingParts<Notes> parts(surface_, distance_, std::move(reached), place);
     parts.grow(
         [&](Part& high, Part& low, Index saddle) {
+          watch.ask();
           judge_before(high, saddle);
           judge_before(low, saddle);
           if (finish(low)) high.notes.own = std::max(high.notes.own, distance_[saddle]);
@@ -56,8 +60,14 @@ class LimbTipSearch {
           high.notes.vertices += low.notes.vertices;
           high.notes.euler += low.notes.euler;
         },
-        [&](Part& part, Index v) { join(part, v); });
-    parts.for_each_left([&](Part& part) { finish(part); });
+        [&](Part& part, Index v) {
+          watch.step();
+          join(part, v);
+        });
+    parts.for_each_left([&](Part& part) {
+      watch.ask();
+      finish(part);
+    });
     return std::move(limbs_);
   }
 

@@ -9,6 +9,7 @@
 #include "mspskel/arcs/detail/arc_points.h"
 #include "mspskel/arcs/detail/graph_points.h"
 #include "mspskel/base/linkage.h"
+#include "mspskel/base/watch.h"
 #include "mspskel/refine/detail/arc_leaves.h"
 #include "mspskel/refine/detail/arc_sections.h"
 #include "mspskel/refine/detail/equal_limbs.h"
@@ -30,6 +31,7 @@ class LimbCompletion {
         options_(options),
         step_(step),
         inner_(inner),
+        watch_(execution.progress, "arcs"),
         execution_(execution),
         ways_(graph, inner, step),
         uncovered_(graph, surface_, all_balls(graph, ArcBalls(graph, solid_, execution)), execution),
@@ -47,6 +49,7 @@ class LimbCompletion {
       std::vector<double> reach;
       for (const LimbTip& tip : found) reach.push_back(uncovered_.distance(tip.vertex));
       for (std::size_t i = 0; i < found.size(); ++i) {
+        watch_.ask();
         const Index top = found[i].vertex;
         if (uncovered_.distance(top) < kLeft * reach[i]) continue;
         if (try_limb(top, found[i].measures.half_width)) {
@@ -86,6 +89,7 @@ class LimbCompletion {
 
   // The end of a body lies in its middle, so the way to it is straight or none.
   bool reach_tip(const LimbTip& tip) {
+    watch_.ask();
     if (tip.kind != TipKind::kBodyEnd) return try_limb(tip.vertex, tip.measures.half_width);
     const Index component = surface_.component[tip.vertex];
     const auto own = [&](Index hub) { return hub_component_[hub] == component; };
@@ -151,9 +155,11 @@ class LimbCompletion {
   // The parts that are limbs, measured beyond the balls, the deepest first.
   std::vector<LimbTip> uncovered_limbs() {
     std::vector<LimbTip> limbs;
-    for (const SlenderPart& part : uncovered_.parts(least_protrusion(), inner_.is_input()))
+    for (const SlenderPart& part : uncovered_.parts(least_protrusion(), inner_.is_input())) {
+      watch_.ask();
       if (const std::optional<PartLevel> level = limb_level(part))
         limbs.push_back(uncovered_.limb(part.top, *level, solid_));
+    }
     std::sort(limbs.begin(), limbs.end(), [](const LimbTip& a, const LimbTip& b) {
       return a.measures.depth != b.measures.depth ? a.measures.depth > b.measures.depth : a.vertex < b.vertex;
     });
@@ -202,6 +208,7 @@ class LimbCompletion {
   const LimbOptions& options_;
   double step_;
   InnerGraph& inner_;
+  Watch watch_;
   const Execution& execution_;
   LimbWays ways_;
   UncoveredSurface uncovered_;
