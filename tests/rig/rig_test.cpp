@@ -424,7 +424,7 @@ TEST_CASE("a rig that drops joints asks more often whether to stop") {
   const auto questions = [](Index joints) {
     RigOptions options;
     options.joints = joints;
-    return questions_of([&](const ProgressCallback& progress) {
+    return test::questions_of([&](const ProgressCallback& progress) {
       make_rig(beast().surface, beast().skeleton, options, progress);
     });
   };

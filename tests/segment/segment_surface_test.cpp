@@ -393,7 +393,7 @@ std::vector<Index> first_cut_off(const CurveSkeleton& skeleton) {
 TEST_CASE("the cuts of a skeleton ask whether to stop, each for the two parts that it makes") {
   const CurveSkeleton skeleton = body_with({{8, 1.5, 20}, {16, 1.0, 8}});
   Index count = 0;
-  const int asked = questions_of(
+  const int asked = test::questions_of(
       [&](const ProgressCallback& progress) { count = find_parts(skeleton, {}, {}, progress).count; });
   CHECK(count == 3);
   CHECK(asked == 1 + 2 * (count - 1));

@@ -77,7 +77,7 @@ TEST_CASE("The chords of a wall are measured with questions between them") {
   const Solid solid(glass(0, 8000));
   const VertexSlices slices = solid.slices();
   CHECK(questions_of([&](const ProgressCallback& progress) {
-          CHECK(find_shells(solid.surface, solid.hierarchy, slices, progress)[0]);
+          (void)find_shells(solid.surface, solid.hierarchy, slices, progress);
         }) > 4);
 }
 
