@@ -68,9 +68,9 @@ std::string way_of(const UnitedShells& united) {
          (united.resolved ? "" : ", which are too coarse for the thinnest of them");
 }
 
-void unite(MeshInput& input, const SurfaceSnapshot& surface, const std::vector<std::vector<Index>>& groups,
+void unite(MeshInput& input, const SurfaceSnapshot& surface, const CrossingShells& crossing,
            const Execution& execution) {
-  input.united = unite_shells(surface, groups, {}, execution);
+  input.united = unite_shells(surface, crossing, {}, execution);
   UnitedShells& united = *input.united;
   if (united.left_apart > 0)
     input.built.warnings.push_back(counted(united.left_apart, "shell") +
@@ -107,8 +107,8 @@ void join_shells(MeshInput& input, const PolygonSoup& soup, const RepairSettings
     input = mend(soup, settings, execution.progress);
     surface = make_snapshot(input.built.mesh);
   }
-  const std::vector<std::vector<Index>> groups = crossing_shells(surface, execution);
-  if (groups.empty()) return;
+  const CrossingShells crossing = crossing_shells(surface, execution);
+  if (crossing.groups.empty()) return;
   if (settings.wrap_mode == WrapMode::kAuto) {
     WrapOptions options = settings.wrapping;
     options.thicken_walls = false;
@@ -119,7 +119,7 @@ void join_shells(MeshInput& input, const PolygonSoup& soup, const RepairSettings
       return;
     }
   }
-  unite(input, surface, groups, execution);
+  unite(input, surface, crossing, execution);
 }
 
 // Nothing tells what the solid is: most of the surface is open sheets, and a good part of the rest would be
