@@ -196,7 +196,7 @@ MSPSKEL_INLINE std::vector<LimbTip> find_limb_tips(const SurfaceSnapshot& surfac
   const auto middle = detail::middle_of_components(surface, ways, solid, slices);
   const std::vector<double> distance = inner_distances(surface, ways, solid, middle, execution);
   const std::vector<detail::FoundLimb> limbs =
-      detail::LimbTipSearch(surface, solid, slices, options, distance).run(execution.progress);
+      detail::LimbTipSearch(surface, solid, slices, options, distance, execution.progress).run();
   constexpr double kLobe = 0.45;  // half of a tube and of a plank, a third of a disc round its stem
   std::vector<LimbTip> tips;
   for (const detail::FoundLimb& limb : limbs) {
