@@ -58,9 +58,9 @@ struct MeshInput {
 MeshInput prepare_mesh(const PolygonSoup& soup, const RepairSettings& settings,
                        const Execution& execution = {});
 
-// The soup that the input was prepared from, wrapped as settings.wrapping says, whatever its surface is. Where
-// the input has open ends its mended surface is wrapped, so that the wrap does not go into them, and they are
-// ends no more. Throws MeshError.
+// The soup that the input was prepared from, wrapped as settings.wrapping says, whatever its surface is.
+// Where the input has open ends its mended surface is wrapped, so that the wrap does not go into them, and
+// they are ends no more. Throws MeshError.
 MeshInput wrap_mesh(const MeshInput& input, const PolygonSoup& soup, const RepairSettings& settings,
                     const Execution& execution = {});
 
