@@ -83,9 +83,11 @@ void check_outputs(const ExtractSettings& settings) {
   }
   written.push_back({settings.report, "the report"});
   if (!settings.segments.empty()) segment_format_of(settings.segments);
+  if (!settings.bent.empty()) written_mesh_format_of(settings.bent);
+  if (!settings.surface.empty()) written_mesh_format_of(settings.surface);
   written.push_back({settings.segments, "the file of the parts"});
   written.push_back({settings.bent, "the bent surface"});
-  written.push_back({settings.run.repair.write_mesh, "the mended mesh"});
+  written.push_back({settings.surface, "the mended mesh"});
   if (!settings.stages.empty()) {
     written.push_back({settings.stages, "the folder of the stages"});
     for (const std::string& path : stage_file_paths(settings.stages))
@@ -96,7 +98,7 @@ void check_outputs(const ExtractSettings& settings) {
   if (!settings.report.empty()) check_writable(settings.report);
   if (!settings.segments.empty()) check_writable(settings.segments);
   if (!settings.bent.empty()) check_writable(settings.bent);
-  if (!settings.run.repair.write_mesh.empty()) check_writable(settings.run.repair.write_mesh);
+  if (!settings.surface.empty()) check_writable(settings.surface);
   if (!settings.stages.empty()) check_folder_writable(settings.stages);
 }
 
@@ -128,6 +130,7 @@ void show_warnings(const ExtractResult& result, Terminal& terminal) {
 
 struct Extraction {
   CheckedExtraction made;
+  std::string surface;    // the bytes of its file, if there is to be one
   bool reported = false;  // as JSON, somewhere
   Json facts;             // if so
   std::optional<Segmentation> segmentation;
@@ -148,7 +151,8 @@ void segment(const ExtractSettings& settings, Extraction& extraction) {
 void add_rig(const ExtractSettings& settings, Extraction& extraction) {
   const Stopwatch rigging;
   ExtractResult& result = extraction.made.result;
-  extraction.rig = make_rig(result.surface, result.skeleton, settings.rigging);
+  extraction.rig =
+      make_rig(result.surface, result.skeleton, settings.rigging, settings.run.extract.execution.progress);
   result.seconds.emplace_back("rig", rigging.seconds());
   for (const std::string& pose : settings.poses)
     extraction.pose.push_back(parse_joint_turn(*extraction.rig, pose));
@@ -181,100 +185,122 @@ void add_renumbered(const ExtractSettings& settings, CheckedExtraction& made) {
                                    "; --write-mesh writes it");
 }
 
-Extraction extract_and_check(const ExtractSettings& settings, const Cancellation& cancellation,
-                             ProgramSeconds& seconds, Terminal& terminal) {
+void format_surface(const ExtractSettings& settings, const MeshInput& input, Extraction& extraction) {
+  if (!settings.surface.empty())
+    extraction.surface =
+        format_mesh(to_polygon_soup(input.built.mesh), written_mesh_format_of(settings.surface));
+}
+
+// Of a mesh that carries no skeleton the surface is kept in `extraction`, too.
+void extract_and_check(const ExtractSettings& settings, const Cancellation& cancellation,
+                       ProgramSeconds& seconds, Terminal& terminal, Extraction& extraction) {
   const Stopwatch reading;
   const PolygonSoup soup = read_polygon_soup(settings.input);
   MeshInput input = prepare_mesh(soup, settings.run.repair, settings.run.extract.execution);
+  format_surface(settings, input, extraction);
+  const bool was_wrapped = input.wrapped.has_value();
   seconds.read = reading.seconds();
   settings.root.resolve(input.repair.openings);  // what is wrong with it shows before the work
   cancellation.throw_if_requested();
   if (!settings.quiet) expect(terminal.estimate(), input, settings.run.extract);
-  Extraction extraction;
   extraction.reported = !settings.report.empty() || settings.verbose || writes_report(settings);
   extraction.made =
       extract_checked(soup, std::move(input), settings.run,
                       extraction.reported ? CertificateDepth::kFull : CertificateDepth::kVerdict);
+  if (extraction.made.input.wrapped && !was_wrapped)
+    format_surface(settings, extraction.made.input, extraction);
   add_losses(settings, extraction.made.result);
   add_renumbered(settings, extraction.made);
   if (needs_parts(settings, extraction.made.result)) segment(settings, extraction);
   if (settings.needs_rig()) add_rig(settings, extraction);
   if (extraction.reported) extraction.facts = facts_of(settings.input, extraction.made);
-  return extraction;
 }
 
-void write_glb(const std::string& path, const ExtractSettings& settings, const Extraction& extraction) {
+std::string glb_of(const ExtractSettings& settings, const Extraction& extraction) {
   const ExtractResult& result = extraction.made.result;
   const GlbScene scene{
       settings.input == "-" ? "standard input" : fs::path(settings.input).filename().string(),
       to_polygon_soup(result.surface), result.skeleton};
-  write_file_atomically(
-      path, settings.rig ? format_rigged_glb(scene, *extraction.rig, extraction.pose) : format_glb(scene));
+  return settings.rig ? format_rigged_glb(scene, *extraction.rig, extraction.pose) : format_glb(scene);
 }
 
-void write_bent(const ExtractSettings& settings, const Extraction& extraction) {
+std::string bent_surface(const ExtractSettings& settings, const Extraction& extraction) {
   PolygonSoup surface = to_polygon_soup(extraction.made.result.surface);
   surface.points = bend(*extraction.rig, surface.points, extraction.pose);
-  write_mesh(settings.bent, surface);
+  return format_mesh(surface, written_mesh_format_of(settings.bent));
 }
 
 // To its file, and a word of it about every part to those who want many.
-void write_report(const ExtractSettings& settings, const Json& report, Terminal& terminal) {
+void add_report(const ExtractSettings& settings, const Json& report, Terminal& terminal, OutputFiles& files) {
   terminal.clear_progress();
   for (const char* part : {"input", "counts", "seconds", "skeleton", "checks"})
     if (report.contains(part)) terminal.note(std::string(part) + " " + report_text(report[part], -1));
-  if (!settings.report.empty()) write_file_atomically(settings.report, report_text(report));
+  if (!settings.report.empty()) files.add(settings.report, report_text(report));
 }
 
-// The report says why there is no result, too; an end that was asked for leaves nothing behind.
+void add_surface(const ExtractSettings& settings, Extraction& extraction, OutputFiles& files) {
+  if (!extraction.surface.empty()) files.add(settings.surface, std::move(extraction.surface));
+}
+
+// Surface and report say why there is no result, too; an end that was asked for leaves nothing behind.
 Extraction extract_or_report(const ExtractSettings& settings, const Cancellation& cancellation,
-                             const Stopwatch& total, ProgramSeconds& seconds, Terminal& terminal) {
+                             const Stopwatch& total, ProgramSeconds& seconds, Terminal& terminal,
+                             OutputFiles& files) {
+  Extraction extraction;
   try {
-    return extract_and_check(settings, cancellation, seconds, terminal);
+    extract_and_check(settings, cancellation, seconds, terminal, extraction);
   } catch (const Error& error) {
-    if (error.kind() != ErrorKind::kCancelled && error.kind() != ErrorKind::kWrite)
-      write_report(settings, refusal_report(settings.input, settings.values, error, total.seconds()),
-                   terminal);
+    if (error.kind() == ErrorKind::kCancelled) throw;
+    add_surface(settings, extraction, files);
+    add_report(settings, refusal_report(settings.input, settings.values, error, total.seconds()), terminal,
+               files);
+    files.commit();
     throw;
   }
+  return extraction;
 }
 
 // Of what was extracted, where a report is wanted; a failure stands in it as an error.
 void report_extraction(const ExtractSettings& settings, const Extraction& extraction,
                        const std::string& failure, ProgramSeconds& seconds, const Stopwatch& total,
-                       Terminal& terminal) {
+                       Terminal& terminal, OutputFiles& files) {
   seconds.total = total.seconds();
   if (!extraction.reported) return;
   Json report = with_costs(extraction.facts, settings.values, extraction.made.result, seconds);
   if (!failure.empty()) report["error"] = error_json(NoSkeletonError(failure));
-  write_report(settings, report, terminal);
+  add_report(settings, report, terminal, files);
 }
 
-void write_files(const ExtractSettings& settings, const Extraction& extraction, const Stopwatch& total,
-                 ProgramSeconds& seconds, Terminal& terminal) {
-  const Stopwatch writing;
+std::string bytes_of(const std::string& output, const ExtractSettings& settings,
+                     const Extraction& extraction) {
+  if (is_glb(output)) return glb_of(settings, extraction);
+  if (is_rig_text(output)) return format_rig_text(*extraction.rig);
   const CheckedExtraction& made = extraction.made;
-  const CurveSkeleton skeleton = made.input.of_file(made.result.skeleton);
-  for (const std::string& output : settings.outputs) {
-    if (is_page(output))
-      write_viewer_page(output, make_page_scene(settings.input, made, extraction.facts,
-                                                extraction.segmentation ? &*extraction.segmentation : nullptr,
-                                                extraction.rig ? &*extraction.rig : nullptr));
-    else if (is_glb(output))
-      write_glb(output, settings, extraction);
-    else if (is_rig_text(output))
-      write_file_atomically(output, format_rig_text(*extraction.rig));
-    else
-      write_skeleton(output, skeleton, extraction.reported ? report_text(extraction.facts) : "",
-                     settings.root.resolve(made.input.repair.openings));
-  }
+  if (is_page(output))
+    return format_viewer_page(make_page_scene(
+        settings.input, made, extraction.facts, extraction.segmentation ? &*extraction.segmentation : nullptr,
+        extraction.rig ? &*extraction.rig : nullptr, settings.run.extract.execution));
+  return format_skeleton(made.input.of_file(made.result.skeleton), skeleton_format_of(output),
+                         extraction.reported ? report_text(extraction.facts) : "",
+                         settings.root.resolve(made.input.repair.openings));
+}
+
+void write_files(const ExtractSettings& settings, Extraction& extraction, const Stopwatch& total,
+                 ProgramSeconds& seconds, Terminal& terminal, OutputFiles& files) {
+  const Stopwatch writing;
+  const ExtractResult& result = extraction.made.result;
+  for (const std::string& output : settings.outputs)
+    files.add(output, bytes_of(output, settings, extraction));
   if (!settings.segments.empty())
-    write_segments(settings.segments, to_polygon_soup(made.result.surface),
-                   extraction.segmentation->part_of_face);
-  if (!settings.bent.empty()) write_bent(settings, extraction);
-  if (!settings.stages.empty()) write_stage_files(settings.stages, made.result);
+    files.add(settings.segments,
+              format_segments(to_polygon_soup(result.surface), extraction.segmentation->part_of_face,
+                              segment_format_of(settings.segments)));
+  if (!settings.bent.empty()) files.add(settings.bent, bent_surface(settings, extraction));
+  if (!settings.stages.empty()) add_stage_files(settings.stages, result, files);
+  add_surface(settings, extraction, files);
   seconds.write = writing.seconds();
-  report_extraction(settings, extraction, made.failure, seconds, total, terminal);
+  report_extraction(settings, extraction, extraction.made.failure, seconds, total, terminal, files);
+  files.commit();
 }
 
 void extract(const ExtractSettings& given, const Cancellation& cancellation, Terminal& terminal) {
@@ -287,16 +313,19 @@ void extract(const ExtractSettings& given, const Cancellation& cancellation, Ter
   ProgramSeconds seconds;
   check_outputs(settings);
   keep_threads_apart(thread_count(settings.run.extract.execution));
-  const Extraction extraction = extract_or_report(settings, cancellation, total, seconds, terminal);
+  OutputFiles files([&](const char*, double) { return !cancellation.requested(); });
+  Extraction extraction = extract_or_report(settings, cancellation, total, seconds, terminal, files);
   cancellation.throw_if_requested();
-  const std::string& failure = extraction.made.failure;
+  const std::string failure = extraction.made.failure;
   show_warnings(extraction.made.result, terminal);
   if (!failure.empty() && !settings.keep_failed) {
     const NoSkeletonError refused(failure + " (--keep-failed writes it all the same)");
-    report_extraction(settings, extraction, refused.what(), seconds, total, terminal);
+    add_surface(settings, extraction, files);
+    report_extraction(settings, extraction, refused.what(), seconds, total, terminal, files);
+    files.commit();
     throw refused;
   }
-  write_files(settings, extraction, total, seconds, terminal);
+  write_files(settings, extraction, total, seconds, terminal, files);
   if (!failure.empty()) throw NoSkeletonError(failure);
 }
 

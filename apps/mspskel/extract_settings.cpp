@@ -20,7 +20,7 @@ constexpr const char* kExitStatus =
     R"(  0 done, 1 usage, 2 cannot read, 3 the mesh is not usable, 4 cannot write,
   5 no skeleton, or one whose pieces or cycles are not the mesh's or that lies
     outside it (see --keep-failed, --least-inside),
-  6 time or memory limit, or interrupted.
+  6 time or memory limit, or interrupted: all files are as they were.
 )";
 
 std::string command_list() {
@@ -95,7 +95,7 @@ void ExtractOptionTable::add_options() {
   line_.flag("-v,--verbose", settings_.verbose, "a word about every stage");
   line_.flag("--version", settings_.version, "print the version and the libraries' versions and exit");
   add_repair_options(line_, settings_.run.repair);
-  line_.text("--write-mesh", settings_.run.repair.write_mesh, "FILE",
+  line_.text("--write-mesh", settings_.surface, "FILE",
              "the surface that the skeleton belongs to (.off .obj .ply)");
   run_.add_stages(line_);
   add_segment_options(line_, settings_);

@@ -19,6 +19,7 @@ struct ExtractSettings {
   std::string report;  // empty: none
   std::string stages;  // folder; empty: none
   RootOption root;
+  std::string surface;   // file of the mesh that the skeleton belongs to; empty: none
   std::string segments;  // file of the parts; empty: none
   SegmentOptions segmentation;
   bool rig = false;  // .glb files have joints instead of lines

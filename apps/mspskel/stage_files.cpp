@@ -4,10 +4,10 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 #include <vector>
 
 #include "mspskel/base/error.h"
-#include "mspskel/io/atomic_file.h"
 #include "mspskel/io/write_mesh.h"
 
 namespace mspskel::cli {
@@ -17,37 +17,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kNames[] = {"msp.csv",           "msp_initial.ply", "msp.ply",
                                   "error_initial.ply", "error.ply",       "skeleton_mesh.ply"};
-
-// A folder that goes again, with the files that were noted, unless it is kept.
-class NewFolder {
- public:
-  explicit NewFolder(const fs::path& folder) {
-    std::error_code failure;
-    fs::path part = fs::absolute(folder, failure).lexically_normal();
-    for (; !part.empty() && !fs::exists(part, failure); part = part.parent_path()) made_.push_back(part);
-    fs::create_directories(folder, failure);
-    if (failure) throw WriteError("cannot make the folder " + folder.string() + ": " + failure.message());
-  }
-  NewFolder(const NewFolder&) = delete;
-  NewFolder& operator=(const NewFolder&) = delete;
-  ~NewFolder() {
-    if (kept_) return;
-    std::error_code ignored;
-    for (const fs::path& file : files_) fs::remove(file, ignored);
-    for (const fs::path& part : made_) fs::remove(part, ignored);  // not if there is more in it
-  }
-  // A file that is about to be made; one that is replaced stays.
-  void note(const fs::path& file) {
-    std::error_code ignored;
-    if (!fs::exists(file, ignored)) files_.push_back(file);
-  }
-  void keep() { kept_ = true; }
-
- private:
-  std::vector<fs::path> made_;  // the innermost first
-  std::vector<fs::path> files_;
-  bool kept_ = false;
-};
 
 // Lines of comma-separated numbers, the shortest that read back the same.
 class CsvText {
@@ -103,31 +72,29 @@ std::vector<std::string> stage_file_paths(const std::string& folder) {
   return paths;
 }
 
-void write_stage_files(const std::string& folder, const ExtractResult& result) {
-  NewFolder made(folder);
-  const auto path = [&](const char* name) {
-    const fs::path file = fs::path(folder) / name;
-    made.note(file);
-    return file.string();
+void add_stage_files(const std::string& folder, const ExtractResult& result, OutputFiles& files) {
+  files.make_folder(folder);
+  const auto add = [&](const char* name, std::string bytes) {
+    files.add((fs::path(folder) / name).string(), std::move(bytes));
   };
-  write_file_atomically(path("msp.csv"), msp_csv(result));
+  add("msp.csv", msp_csv(result));
 
   const PolygonSoup mesh = moved_mesh(result.surface, result.surface.position);
-  const auto write_coloured = [&](const char* name, const std::vector<double>& values, double low,
-                                  double high) {
+  const auto add_coloured = [&](const char* name, const std::vector<double>& values, double low,
+                                double high) {
     WriteMeshOptions options;
     options.vertex_colors = color_by_value(values, low, high);
-    write_mesh(path(name), mesh, options);
+    add(name, format_mesh(mesh, MeshFormat::kPly, options));
   };
   // One scale for both, so that the two pictures compare.
   const auto& msp = result.initial_slices.perimeter;
   const auto [low, high] = std::minmax_element(msp.begin(), msp.end());
-  write_coloured("msp_initial.ply", msp, *low, *high);
-  write_coloured("msp.ply", result.slices.perimeter, *low, *high);
-  write_coloured("error_initial.ply", result.initial_slices.error, 0, 1);
-  write_coloured("error.ply", result.slices.error, 0, 1);
-  write_mesh(path("skeleton_mesh.ply"), moved_mesh(result.surface, result.skeleton_mesh.position));
-  made.keep();
+  add_coloured("msp_initial.ply", msp, *low, *high);
+  add_coloured("msp.ply", result.slices.perimeter, *low, *high);
+  add_coloured("error_initial.ply", result.initial_slices.error, 0, 1);
+  add_coloured("error.ply", result.slices.error, 0, 1);
+  add("skeleton_mesh.ply",
+      format_mesh(moved_mesh(result.surface, result.skeleton_mesh.position), MeshFormat::kPly));
 }
 
 }  // namespace mspskel::cli

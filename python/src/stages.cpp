@@ -154,7 +154,7 @@ void refine_all(Arcs& arcs, const Surface& surface, const VertexSlices& slices, 
                 o.execution, arcs.classes);
     reach_digits(arcs.graph, surface.snapshot, surface.solid,
                  find_digits(arcs.graph, surface.snapshot, surface.solid, refinement.limbs, o.execution),
-                 refinement.centering.step, refinement.joint_overlap);
+                 refinement.centering.step, refinement.joint_overlap, o.execution);
     if (refinement.node_spacing) space_nodes(arcs.graph, surface.solid, *refinement.node_spacing);
     if (refinement.nodes > 0)
       limit_nodes(arcs.graph, surface.solid, refinement.nodes, arcs.classes.crossings);

@@ -113,7 +113,9 @@ class MeshText {
   bool small_polygons_ = true;
 };
 
-MeshFormat output_format_of(const std::string& path) {
+}  // namespace
+
+MeshFormat written_mesh_format_of(const std::string& path) {
   if (path == "-") return MeshFormat::kOff;
   const std::string extension = detail::extension_of(path);
   if (extension == "off") return MeshFormat::kOff;
@@ -121,8 +123,6 @@ MeshFormat output_format_of(const std::string& path) {
   if (extension == "ply") return MeshFormat::kPly;
   throw unknown_extension("mesh format", path, {".off", ".obj", ".ply"});
 }
-
-}  // namespace
 
 PolygonSoup to_polygon_soup(const DefaultMesh& mesh) {
   PolygonSoup soup;
@@ -158,7 +158,7 @@ std::string format_mesh(const PolygonSoup& soup, MeshFormat format, const WriteM
 }
 
 void write_mesh(const std::string& path, const PolygonSoup& soup, const WriteMeshOptions& options) {
-  write_file_atomically(path, format_mesh(soup, output_format_of(path), options));
+  write_file_atomically(path, format_mesh(soup, written_mesh_format_of(path), options));
 }
 void write_mesh(const std::string& path, const DefaultMesh& mesh, const WriteMeshOptions& options) {
   write_mesh(path, to_polygon_soup(mesh), options);

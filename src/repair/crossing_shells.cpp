@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "disjoint_sets.h"
-#include "watch.h"
+#include "mspskel/base/watch.h"
 
 namespace mspskel::detail {
 namespace {
@@ -42,11 +42,26 @@ std::optional<std::array<Vector3, 2>> passage(const SurfaceSnapshot& surface, co
                                 p + std::min(1.0, share + reach) * (q - p)};
 }
 
+enum class CrossingDepth { kAny, kDeep };
+
 // Finds shells that lie in one place.
 class Copies {
  public:
   Copies(const SurfaceSnapshot& surface, const std::vector<Shell>& shells, Watch& watch)
       : surface_(surface), shells_(shells), watch_(watch) {}
+
+  // Per shell the first one that it is a copy of and that is none itself; kNone.
+  std::vector<Index> run() {
+    const auto count = static_cast<Index>(shells_.size());
+    std::vector<Index> copy_of(shells_.size(), kNone);
+    for (Index c = 0; c < count; ++c)
+      for (Index d = 0; d < c && copy_of[c] == kNone; ++d)
+        if (copy_of[d] == kNone && are_copies(d, c)) copy_of[c] = d;
+    return copy_of;
+  }
+
+ private:
+  static constexpr double kCopy = 0.005;  // of the width
 
   bool are_copies(Index c, Index d) {
     watch_.step();
@@ -56,9 +71,6 @@ class Copies {
            (one.high - other.high).cwiseAbs().maxCoeff() <= most && is_beside(c, d, most) &&
            is_beside(d, c, most);
   }
-
- private:
-  static constexpr double kCopy = 0.005;  // of the width
 
   bool is_beside(Index c, Index d, double most) {
     const BoundingVolumeHierarchy& walls = walls_.try_emplace(d, surface_, shells_[d].faces).first->second;
@@ -86,14 +98,14 @@ class Crossings {
   Crossings(const SurfaceSnapshot& surface, const std::vector<Shell>& shells, CrossingDepth depth)
       : surface_(surface), shells_(shells), depth_(depth), groups_(static_cast<Index>(shells.size())) {}
 
-  void run(const ProgressCallback& progress) {
+  // Finds the copies where they are not known.
+  void run(std::vector<Index>& copy_of, const ProgressCallback& progress) {
     const std::vector<Index> near = faces_near_others(progress);
     if (near.empty()) return;
     Watch watch(progress, "shells");
-    Copies copies(surface_, shells_, watch);
+    if (copy_of.empty()) copy_of = Copies(surface_, shells_, watch).run();
     for (Index c = 0; c < static_cast<Index>(shells_.size()); ++c)
-      for (Index d = 0; d < c; ++d)
-        if (groups_.root(c) != groups_.root(d) && copies.are_copies(d, c)) groups_.unite(c, d);
+      if (copy_of[c] != kNone) groups_.unite(c, copy_of[c]);
     near_.emplace(surface_, near, progress);
     for (std::size_t i = 0; i < near.size(); ++i) {
       if (i % 1024 == 0)
@@ -217,22 +229,21 @@ std::vector<Shell> shells_of(const SurfaceSnapshot& surface) {
   return shells;
 }
 
-std::vector<Index> without_copies(const SurfaceSnapshot& surface, const std::vector<Shell>& shells,
-                                  const std::vector<Index>& members, const ProgressCallback& progress) {
-  Watch watch(progress, "union of shells");
-  Copies copies(surface, shells, watch);
-  std::vector<Index> distinct;
-  for (const Index m : members)
-    if (std::none_of(distinct.begin(), distinct.end(), [&](Index d) { return copies.are_copies(d, m); }))
-      distinct.push_back(m);
-  return distinct;
+CrossingShells find_crossings(const SurfaceSnapshot& surface, const std::vector<Shell>& shells,
+                              const ProgressCallback& progress) {
+  CrossingShells found;
+  Crossings crossings(surface, shells, CrossingDepth::kAny);
+  crossings.run(found.copy_of, progress);
+  found.groups = crossings.groups();
+  return found;
 }
 
-std::vector<std::vector<Index>> crossing_groups(const SurfaceSnapshot& surface,
-                                                const std::vector<Shell>& shells,
-                                                const ProgressCallback& progress, CrossingDepth depth) {
-  Crossings crossings(surface, shells, depth);
-  crossings.run(progress);
+std::vector<std::vector<Index>> deep_groups(const SurfaceSnapshot& surface, const std::vector<Shell>& shells,
+                                            const std::vector<Index>& copy_of,
+                                            const ProgressCallback& progress) {
+  std::vector<Index> known = copy_of;
+  Crossings crossings(surface, shells, CrossingDepth::kDeep);
+  crossings.run(known, progress);
   return crossings.groups();
 }
 

@@ -5,6 +5,7 @@
 
 #include "mspskel/base/progress.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
+#include "mspskel/repair/unite_shells.h"
 
 namespace mspskel::detail {
 
@@ -18,16 +19,14 @@ struct Shell {
 
 std::vector<Shell> shells_of(const SurfaceSnapshot& surface);
 
-// The members without those that are copies of one before them: each lies within a small part of its width of
-// the other everywhere.
-std::vector<Index> without_copies(const SurfaceSnapshot& surface, const std::vector<Shell>& shells,
-                                  const std::vector<Index>& members, const ProgressCallback& progress);
+// See crossing_shells in unite_shells.h.
+CrossingShells find_crossings(const SurfaceSnapshot& surface, const std::vector<Shell>& shells,
+                              const ProgressCallback& progress);
 
-// See crossing_shells in unite_shells.h. kDeep: whatever the shells' width, as grids do not tell less.
-enum class CrossingDepth { kAny, kDeep };
-std::vector<std::vector<Index>> crossing_groups(const SurfaceSnapshot& surface,
-                                                const std::vector<Shell>& shells,
-                                                const ProgressCallback& progress,
-                                                CrossingDepth depth = CrossingDepth::kAny);
+// The groups of those that cross by a thousandth of their extent, whatever their width, as grids do not tell
+// less, and of the copies that are known.
+std::vector<std::vector<Index>> deep_groups(const SurfaceSnapshot& surface, const std::vector<Shell>& shells,
+                                            const std::vector<Index>& copy_of,
+                                            const ProgressCallback& progress);
 
 }  // namespace mspskel::detail

@@ -7,11 +7,9 @@
 #include "mspskel/base/progress.h"
 #include "mspskel/mesh/polygon_soup.h"
 #include "shell_grid.h"
+#include "shifted_shells.h"
 
 namespace mspskel::detail {
-
-// How far shells are moved to be in general position, in the surface's coordinates.
-constexpr double kShellShift = 2e-7;
 
 struct CutShells {
   PolygonSoup soup;

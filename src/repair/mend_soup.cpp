@@ -14,8 +14,8 @@
 #include "find_openings.h"
 #include "join_touching_pieces.h"
 #include "mspskel/base/error.h"
+#include "mspskel/base/watch.h"
 #include "pair_faces.h"
-#include "watch.h"
 #include "weld_points.h"
 
 namespace mspskel {

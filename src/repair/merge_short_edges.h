@@ -1,8 +1,8 @@
 // Surfaces cut out of a grid have slivers wherever they pass near a node.
 #pragma once
 
+#include "mspskel/base/watch.h"
 #include "mspskel/mesh/polygon_soup.h"
-#include "watch.h"
 
 namespace mspskel::detail {
 

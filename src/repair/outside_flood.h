@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "dense_grid.h"
+#include "mspskel/base/watch.h"
 #include "soup_walls.h"
-#include "watch.h"
 
 namespace mspskel::detail {
 

@@ -14,10 +14,10 @@
 #include "inflated_shells.h"
 #include "merge_short_edges.h"
 #include "mspskel/base/error.h"
+#include "mspskel/base/watch.h"
 #include "mspskel/mesh/build_mesh.h"
 #include "shell_grid.h"
 #include "split_long_edges.h"
-#include "watch.h"
 #include "whole_pieces.h"
 
 namespace mspskel {
@@ -270,25 +270,27 @@ class Uniting {
 
 class Groups {
  public:
-  Groups(const SurfaceSnapshot& surface, const std::vector<Shell>& shells, const UniteOptions& options,
-         const Execution& execution, Uniting& uniting)
+  Groups(const SurfaceSnapshot& surface, const std::vector<Shell>& shells, const CrossingShells& crossing,
+         const UniteOptions& options, const Execution& execution, Uniting& uniting)
       : surface_(surface),
         shells_(shells),
+        crossing_(crossing),
         options_(options),
         execution_(execution),
         uniting_(uniting),
         euler_(twice_euler_characteristics(surface)),
         inflated_(surface, shells) {}
 
-  void run(const std::vector<std::vector<Index>>& groups) {
-    for (const std::vector<Index>& members : groups) unite(members, true);
+  void run() {
+    for (const std::vector<Index>& members : crossing_.groups) unite(members, true);
   }
 
  private:
   // Where the cut fails, shells that cross less than a grid can tell stay apart.
   void unite(const std::vector<Index>& members, bool may_part) {
-    const std::vector<Index> distinct =
-        detail::without_copies(surface_, shells_, members, execution_.progress);
+    std::vector<Index> distinct;
+    for (const Index m : members)
+      if (crossing_.copy_of[m] == kNone) distinct.push_back(m);
     if (distinct.size() == 1) {
       uniting_.replace(members, own_faces(surface_, shells_[distinct[0]]), {}, execution_);
       return;
@@ -323,7 +325,7 @@ class Groups {
       part_of_.resize(shells_.size());
       std::iota(part_of_.begin(), part_of_.end(), 0);
       for (const std::vector<Index>& part :
-           detail::crossing_groups(surface_, shells_, execution_.progress, detail::CrossingDepth::kDeep))
+           detail::deep_groups(surface_, shells_, crossing_.copy_of, execution_.progress))
         for (const Index m : part) part_of_[m] = part[0];
     }
     std::map<Index, std::vector<Index>> by_part;
@@ -335,6 +337,7 @@ class Groups {
 
   const SurfaceSnapshot& surface_;
   const std::vector<Shell>& shells_;
+  const CrossingShells& crossing_;
   const UniteOptions& options_;
   const Execution& execution_;
   Uniting& uniting_;
@@ -350,9 +353,9 @@ void validate(const UniteOptions& options) {
     throw UsageError("cells of united shells must be from 0.001 to 0.1 of the extent, or 0");
 }
 
-std::vector<std::vector<Index>> crossing_shells(const SurfaceSnapshot& surface, const Execution& execution) {
+CrossingShells crossing_shells(const SurfaceSnapshot& surface, const Execution& execution) {
   if (surface.component_count < 2) return {};
-  return detail::crossing_groups(surface, detail::shells_of(surface), execution.progress);
+  return detail::find_crossings(surface, detail::shells_of(surface), execution.progress);
 }
 
 bool has_repeated_shells(const SurfaceSnapshot& surface) {
@@ -372,17 +375,17 @@ bool has_repeated_shells(const SurfaceSnapshot& surface) {
   return std::adjacent_find(places.begin(), places.end()) != places.end();
 }
 
-UnitedShells unite_shells(const SurfaceSnapshot& surface, const std::vector<std::vector<Index>>& groups,
+UnitedShells unite_shells(const SurfaceSnapshot& surface, const CrossingShells& crossing,
                           const UniteOptions& options, const Execution& execution) {
   validate(options);
   const std::vector<Shell> shells = detail::shells_of(surface);
   std::vector<bool> grouped(shells.size(), false);
-  for (const std::vector<Index>& group : groups)
+  for (const std::vector<Index>& group : crossing.groups)
     for (const Index m : group) grouped[m] = true;
   Uniting uniting(surface, shells);
   for (Index c = 0; c < surface.component_count; ++c)
     if (!grouped[c]) uniting.keep(c);
-  Groups(surface, shells, options, execution, uniting).run(groups);
+  Groups(surface, shells, crossing, options, execution, uniting).run();
   return uniting.take();
 }
 

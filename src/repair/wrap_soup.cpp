@@ -6,10 +6,10 @@
 
 #include "merge_short_edges.h"
 #include "mspskel/base/error.h"
+#include "mspskel/base/watch.h"
 #include "outside_flood.h"
 #include "point_tree.h"
 #include "tetrahedron_cutter.h"
-#include "watch.h"
 #include "whole_pieces.h"
 
 namespace mspskel {

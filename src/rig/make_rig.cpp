@@ -190,20 +190,23 @@ void validate(const RigOptions& options) {
   if (!(options.blend >= 0 && options.blend <= 10)) throw UsageError("rig: blend must be from 0 to 10");
 }
 
-Rig make_rig(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton, const RigOptions& options) {
+Rig make_rig(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton, const RigOptions& options,
+             const ProgressCallback& progress) {
   validate(options);
   check_fit(surface, skeleton);
   const SkeletonTree tree = detail::make_skeleton_tree(skeleton);
-  const std::vector<char> marked = detail::choose_joints(skeleton, tree, options.joints);
+  const std::vector<char> marked = detail::choose_joints(skeleton, tree, options.joints, progress);
   const auto lay = [&](const std::vector<char>& at_nodes) {
     Rig rig;
     lay_joints(skeleton, tree, at_nodes, rig);
     return rig;
   };
   const auto shares_of = [&](const Rig& rig) {
+    report_progress(progress, detail::kRigStage, 0.5);
     return detail::bone_shares(surface, skeleton, tree, rig, options.blend);
   };
   const auto follow = [&](Rig& rig, const std::vector<BoneShare>& shares) {
+    report_progress(progress, detail::kRigStage, 0.7);
     rig.influences = influences_of(detail::bound_slopes(surface, rig, shares), surface.vertex_count());
   };
   Rig rig = lay(marked);
@@ -220,8 +223,7 @@ Rig make_rig(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton, cons
       rig = std::move(turned);
     }
   }
-  while (drop_idle_limbs(rig)) {
-  }
+  while (drop_idle_limbs(rig)) report_progress(progress, detail::kRigStage, 0.9);
   rig.cut = tree.cut;
   detail::name_joints(rig, surface.frame.scale);
   return rig;

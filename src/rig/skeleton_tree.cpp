@@ -83,7 +83,7 @@ class JointChoice {
     count_children();
   }
 
-  std::vector<char> choose(Index wanted) {
+  std::vector<char> choose(Index wanted, const ProgressCallback& progress) {
     Index leaves = 0;
     for (const Index n : tree_.order) {
       if (left_out_[n]) continue;
@@ -96,9 +96,9 @@ class JointChoice {
     constexpr Index kMost = 40, kLeast = 13, kLeastPerEnd = 3;
     const Index most = wanted > 0 ? wanted : kMost;
     const Index least = wanted > 0 ? wanted : std::min(kLeast, kLeastPerEnd * leaves);
-    while (count_ > most && drop_least()) mark_bare_ends();
-    while (count_ < least && split_longest()) {
-    }
+    const auto ask = [&] { report_progress(progress, kRigStage, 0.1); };
+    for (ask(); count_ > most && drop_least(); ask()) mark_bare_ends();
+    while (count_ < least && split_longest()) ask();
     return marked_;
   }
 
@@ -294,8 +294,9 @@ SkeletonTree make_skeleton_tree(const CurveSkeleton& skeleton) {
   return root == median ? tree : tree_from(skeleton, root);
 }
 
-std::vector<char> choose_joints(const CurveSkeleton& skeleton, const SkeletonTree& tree, Index wanted) {
-  return JointChoice(skeleton, tree).choose(wanted);
+std::vector<char> choose_joints(const CurveSkeleton& skeleton, const SkeletonTree& tree, Index wanted,
+                                const ProgressCallback& progress) {
+  return JointChoice(skeleton, tree).choose(wanted, progress);
 }
 
 void turn_farther_out(const SkeletonTree& tree, Index node, std::vector<char>& marked) {

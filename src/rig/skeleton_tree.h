@@ -3,9 +3,12 @@
 
 #include <vector>
 
+#include "mspskel/base/progress.h"
 #include "mspskel/skeleton/curve_skeleton.h"
 
 namespace mspskel::detail {
+
+inline constexpr const char* kRigStage = "rig";
 
 struct SkeletonTree {
   std::vector<Index> order;        // all nodes, parents first; order[0] is the root
@@ -24,8 +27,9 @@ double half_width(const SkeletonNode& node);
 // junction whose ball reaches it. O(nodes log nodes) for trees.
 SkeletonTree make_skeleton_tree(const CurveSkeleton& skeleton);
 
-// Per node whether it becomes a joint. See make_rig.
-std::vector<char> choose_joints(const CurveSkeleton& skeleton, const SkeletonTree& tree, Index wanted);
+// Per node whether it becomes a joint. See make_rig. Throws Cancelled. O(joints * nodes).
+std::vector<char> choose_joints(const CurveSkeleton& skeleton, const SkeletonTree& tree, Index wanted,
+                                const ProgressCallback& progress);
 
 // Moves the mark of a limb's first joint, at `node`, to half the length between it and the next mark below
 // it, or takes it away where no node lies between.

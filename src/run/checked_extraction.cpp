@@ -73,7 +73,6 @@ CheckedExtraction extract_checked(const PolygonSoup& soup, MeshInput&& input, co
   if (!again.failure.empty()) return made;
   std::vector<std::string>& warnings = again.result.warnings;
   warnings.insert(warnings.begin(), "of the mesh's own surface, " + made.failure);
-  write_surface(again.input, run.repair);
   made = std::move(again);
   return made;
 }

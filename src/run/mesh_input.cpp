@@ -7,7 +7,6 @@
 
 #include "mspskel/base/counted.h"
 #include "mspskel/base/error.h"
-#include "mspskel/io/write_mesh.h"
 
 namespace mspskel::cli {
 namespace {
@@ -69,9 +68,9 @@ std::string way_of(const UnitedShells& united) {
          (united.resolved ? "" : ", which are too coarse for the thinnest of them");
 }
 
-void unite(MeshInput& input, const SurfaceSnapshot& surface, const std::vector<std::vector<Index>>& groups,
+void unite(MeshInput& input, const SurfaceSnapshot& surface, const CrossingShells& crossing,
            const Execution& execution) {
-  input.united = unite_shells(surface, groups, {}, execution);
+  input.united = unite_shells(surface, crossing, {}, execution);
   UnitedShells& united = *input.united;
   if (united.left_apart > 0)
     input.built.warnings.push_back(counted(united.left_apart, "shell") +
@@ -108,8 +107,8 @@ void join_shells(MeshInput& input, const PolygonSoup& soup, const RepairSettings
     input = mend(soup, settings, execution.progress);
     surface = make_snapshot(input.built.mesh);
   }
-  const std::vector<std::vector<Index>> groups = crossing_shells(surface, execution);
-  if (groups.empty()) return;
+  const CrossingShells crossing = crossing_shells(surface, execution);
+  if (crossing.groups.empty()) return;
   if (settings.wrap_mode == WrapMode::kAuto) {
     WrapOptions options = settings.wrapping;
     options.thicken_walls = false;
@@ -120,7 +119,7 @@ void join_shells(MeshInput& input, const PolygonSoup& soup, const RepairSettings
       return;
     }
   }
-  unite(input, surface, groups, execution);
+  unite(input, surface, crossing, execution);
 }
 
 // Nothing tells what the solid is: most of the surface is open sheets, and a good part of the rest would be
@@ -228,12 +227,7 @@ MeshInput prepare_mesh(const PolygonSoup& soup, const RepairSettings& settings, 
   }
   if (settings.unite && !input.wrapped) join_shells(input, soup, settings, execution);
   input.built.warnings.insert(input.built.warnings.begin(), soup.warnings.begin(), soup.warnings.end());
-  write_surface(input, settings);
   return input;
-}
-
-void write_surface(const MeshInput& input, const RepairSettings& settings) {
-  if (!settings.write_mesh.empty()) write_mesh(settings.write_mesh, input.built.mesh);
 }
 
 MeshInput wrap_mesh(const MeshInput& input, const PolygonSoup& soup, const RepairSettings& settings,

@@ -24,13 +24,12 @@ struct RepairSettings {
   std::string wrap = "auto";         // as given; resolve() reads it
   WrapMode wrap_mode = WrapMode::kAuto;
   WrapOptions wrapping;
-  std::string write_mesh;  // file for the surface that the skeleton belongs to; empty: none
 
   // Sets what --components and --wrap say. Throws UsageError.
   void resolve();
 };
 
-// The group "Repair", apart from --write-mesh.
+// The group "Repair".
 void add_repair_options(CommandLine& line, RepairSettings& settings);
 
 struct MeshInput {
@@ -55,18 +54,15 @@ struct MeshInput {
 
 // A closed, manifold mesh comes through as build_mesh leaves it, unless the settings ask for more; any other
 // is mended, which the first warning sums up, or wrapped. Then shells that cross each other are united.
-// Writes settings.write_mesh. Throws MeshError, WriteError.
+// Throws MeshError.
 MeshInput prepare_mesh(const PolygonSoup& soup, const RepairSettings& settings,
                        const Execution& execution = {});
 
-// The soup that the input was prepared from, wrapped as settings.wrapping says, whatever its surface is. Where
-// the input has open ends its mended surface is wrapped, so that the wrap does not go into them, and they are
-// ends no more. Throws MeshError.
+// The soup that the input was prepared from, wrapped as settings.wrapping says, whatever its surface is.
+// Where the input has open ends its mended surface is wrapped, so that the wrap does not go into them, and
+// they are ends no more. Throws MeshError.
 MeshInput wrap_mesh(const MeshInput& input, const PolygonSoup& soup, const RepairSettings& settings,
                     const Execution& execution = {});
-
-// To settings.write_mesh, if there is such a file. Throws WriteError.
-void write_surface(const MeshInput& input, const RepairSettings& settings);
 
 // What was done, for the report.
 Json repair_facts(const MeshInput& input);

@@ -44,10 +44,11 @@ ViewerPlaces faces_without_area(const SurfaceSnapshot& surface) {
 }
 
 // One place for all faces that hang together.
-ViewerPlaces crossings(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid) {
+ViewerPlaces crossings(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
+                       const Execution& execution) {
   ViewerPlaces places{"the surface crosses itself", {}};
   std::vector<char> waiting(static_cast<std::size_t>(surface.face_count()), 0);
-  const std::vector<Index> faces = find_self_intersecting_faces(surface, solid);
+  const std::vector<Index> faces = find_self_intersecting_faces(surface, solid, execution);
   for (const Index f : faces) waiting[f] = 1;
   for (const Index first : faces) {
     if (!waiting[first]) continue;
@@ -107,7 +108,7 @@ bool is_page(const std::string& path) {
 }
 
 ViewerScene make_page_scene(const std::string& input, const CheckedExtraction& made, const Json& report,
-                            const Segmentation* parts, const Rig* rig) {
+                            const Segmentation* parts, const Rig* rig, const Execution& execution) {
   const ExtractResult& result = made.result;
   const NormalisedFrame& frame = result.surface.frame;
   ViewerScene scene;
@@ -126,13 +127,14 @@ ViewerScene make_page_scene(const std::string& input, const CheckedExtraction& m
     add_parts(result.surface,
               parts ? *parts
                     : segment_surface(result.surface, result.skeleton, {},
-                                      result.coarse ? &*result.coarse : nullptr),
+                                      result.coarse ? &*result.coarse : nullptr, execution.progress),
               scene);
-    add_rig(rig ? *rig : make_rig(result.surface, result.skeleton), scene);
+    add_rig(rig ? *rig : make_rig(result.surface, result.skeleton, {}, execution.progress), scene);
   }
   scene.places = {parts_without_arc(made.uncovered), vertices_without_slice(result),
                   faces_without_area(result.surface)};
-  if (made.certificate.self_intersecting) scene.places.push_back(crossings(result.surface, *result.solid));
+  if (made.certificate.self_intersecting)
+    scene.places.push_back(crossings(result.surface, *result.solid, execution));
   scene.report = report_text(report);
   return scene;
 }

@@ -15,8 +15,9 @@ bool is_page(const std::string& path);
 // `input` is the mesh's file, or - for standard input; `made` has its full certificate (CertificateDepth);
 // `report` is that of make_report or with_costs.
 // Parts and rig are those given, or else made as the options' defaults have them; without a skeleton there
-// are none.
+// are none. Throws Cancelled.
 ViewerScene make_page_scene(const std::string& input, const CheckedExtraction& made, const Json& report,
-                            const Segmentation* parts = nullptr, const Rig* rig = nullptr);
+                            const Segmentation* parts = nullptr, const Rig* rig = nullptr,
+                            const Execution& execution = {});
 
 }  // namespace mspskel::cli

@@ -7,6 +7,7 @@
 
 #include "cross_sections.h"
 #include "mspskel/base/error.h"
+#include "mspskel/base/watch.h"
 #include "part_tree.h"
 
 namespace mspskel {
@@ -44,10 +45,11 @@ struct CrossSection {
 class PartFinder {
  public:
   PartFinder(const CurveSkeleton& skeleton, const std::vector<NodeContact>& contacts,
-             const PartOptions& options)
+             const PartOptions& options, const ProgressCallback& progress)
       : skeleton_(skeleton),
         contacts_(contacts),
         options_(options),
+        watch_(progress, "parts"),
         next_(adjacency(skeleton)),
         size_(detail::cross_sections(skeleton, next_)),
         part_(skeleton.nodes.size(), kNone),
@@ -233,6 +235,7 @@ class PartFinder {
     return bridges;
   }
   Cut cleanest_cut(Index root) {
+    watch_.ask(0.2);
     const detail::PartTree tree = detail::make_part_tree(skeleton_, next_, contacts_, part_, root);
     double widest = 0;
     for (const Index n : tree.order) widest = std::max(widest, size_[n]);
@@ -306,6 +309,7 @@ class PartFinder {
   const CurveSkeleton& skeleton_;
   const std::vector<NodeContact>& contacts_;
   PartOptions options_;
+  detail::Watch watch_;
   std::vector<std::vector<Index>> next_;
   std::vector<double> size_;  // per node: radius of a circle with the cross-section's perimeter
   std::vector<Index> part_;
@@ -335,9 +339,9 @@ void validate(const PartOptions& options) {
 }
 
 SkeletonParts find_parts(const CurveSkeleton& skeleton, const std::vector<NodeContact>& contacts,
-                         const PartOptions& options) {
+                         const PartOptions& options, const ProgressCallback& progress) {
   validate(options);
-  return PartFinder(skeleton, contacts, options).run();
+  return PartFinder(skeleton, contacts, options, progress).run();
 }
 
 }  // namespace mspskel

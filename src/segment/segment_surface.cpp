@@ -130,7 +130,7 @@ class Segmenter {
     PartOptions options = options_.parts;
     options.count = count;
     report_progress(progress_, kPartsStage, 0.2);
-    return find_parts(skeleton_, contacts_, options);
+    return find_parts(skeleton_, contacts_, options, progress_);
   }
   // With smooth borders, and connected.
   std::vector<Index> carried(const SkeletonParts& parts) {

@@ -118,6 +118,33 @@ class Ending(ProgramTest):
             self.assertEqual(self.files(), before)
             self.assertEqual((self.folder / "a.skel").read_text(), "older")
 
+    def test_interrupt_while_files_are_written(self):
+        """Nobody reads what goes to standard output, so the writing does not end by itself."""
+        mesh = self.sample("torus", 20000)
+        self.write("a.skel", "older")
+        before = self.files()
+        process = subprocess.Popen([PROGRAM, mesh, "a.skel", "a.html", "--write-mesh", "b.off", "--stages", "s",
+                                    "--report", "r.json", "--segments", "-"], cwd=self.folder,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.addCleanup(process.stdout.close)
+        self.addCleanup(process.stderr.close)
+        end = time.monotonic() + 60
+        while not (self.folder / "r.json.part0").exists() and time.monotonic() < end:
+            time.sleep(0.02)
+        time.sleep(0.2)
+        self.assertIsNone(process.poll())
+        process.send_signal(signal.SIGTERM)
+        self.assertEqual(process.wait(timeout=60), CANCELLED)
+        self.assertIn(b"interrupted", process.stderr.read())
+        self.assertEqual(self.files(), before)
+        self.assertEqual((self.folder / "a.skel").read_text(), "older")
+
+    def test_outputs_appear_together_or_not_at_all(self):
+        if not os.path.exists("/dev/full"):
+            self.skipTest("no /dev/full here")
+        mesh = self.sample()
+        self.fail_with(WRITE, mesh, "a.skel", "a.html", "--stages", "s", "--report", "/dev/full")
+
 
 if __name__ == "__main__":
     unittest.main()

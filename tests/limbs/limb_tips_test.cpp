@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -14,9 +15,11 @@
 #include "mspskel/limbs/detail/part_level.h"
 #include "mspskel/limbs/detail/part_shape.h"
 #include "mspskel/mesh/coarsen_surface.h"
+#include "mspskel/mesh/inner_distance.h"
 #include "mspskel/mesh/subdivide_surface.h"
 #include "mspskel/samples/blocks.h"
 #include "mspskel/samples/skin_graph.h"
+#include "support/questions.h"
 #include "support/solids.h"
 #include "topology/voxel_solids.h"
 
@@ -49,6 +52,24 @@ TEST_CASE("Each limb of a tripod has a tip at its end") {
     }
     CHECK(reached.size() == 3);
   }
+}
+
+TEST_CASE("The search for limbs asks whether to stop as parts grow and meet") {
+  const Solid solid(sample("octoped", 20000));
+  const VertexSlices slices = solid.slices();
+  const SurfaceWays ways(solid.surface);
+  const std::vector<std::optional<Vector3>> within{
+      Vector3(solid.surface.position[0] - 1e-3 * solid.surface.normal[0])};
+  Execution execution;
+  execution.threads = 1;
+  const int distances = questions_of([&](const ProgressCallback& progress) {
+    execution.progress = progress;
+    inner_distances(solid.surface, ways, solid.hierarchy, within, execution);
+  });
+  CHECK(questions_of([&](const ProgressCallback& progress) {
+          execution.progress = progress;
+          find_limb_tips(solid.surface, solid.hierarchy, slices, LimbOptions(), execution);
+        }) > distances + solid.surface.vertex_count() / 1024 + 8);
 }
 
 TEST_CASE("Samples have the tips that they were made with") {

@@ -7,6 +7,7 @@
 #include "mspskel/refine/find_digits.h"
 #include "mspskel/refine/reach_digits.h"
 #include "support/arc_graphs.h"
+#include "support/questions.h"
 #include "support/solids.h"
 
 using namespace mspskel;
@@ -149,6 +150,12 @@ TEST_CASE("Each digit gets an arc that takes its vertices, stays inside and keep
   const GraphType type = type_of(arcs);
   const std::vector<Digit> digits = find_digits(arcs, solid.surface, solid.hierarchy, {});
   const double step = 0.008;
+  CHECK(questions_of([&](const ProgressCallback& progress) {
+          ArcGraph again = arcs;
+          Execution execution;
+          execution.progress = progress;
+          reach_digits(again, solid.surface, solid.hierarchy, digits, step, 1.0, execution);
+        }) >= static_cast<int>(digits.size()));
   // The arm's own arc is led on into one finger.
   CHECK(reach_digits(arcs, solid.surface, solid.hierarchy, digits, step, 1.0) >= 4);
   CHECK(type_of(arcs) == type);

@@ -25,9 +25,9 @@ std::optional<UnitedShells> unite(const PolygonSoup& soup, int threads = 1) {
   Execution execution;
   execution.threads = threads;
   const SurfaceSnapshot surface = make_snapshot(build_mesh(soup));
-  const std::vector<std::vector<Index>> groups = crossing_shells(surface, execution);
-  if (groups.empty()) return std::nullopt;
-  return unite_shells(surface, groups, {}, execution);
+  const CrossingShells crossing = crossing_shells(surface, execution);
+  if (crossing.groups.empty()) return std::nullopt;
+  return unite_shells(surface, crossing, {}, execution);
 }
 
 MeshReport report_of(const PolygonSoup& soup) { return report_mesh(make_snapshot(build_mesh(soup)), {1}); }
@@ -245,12 +245,12 @@ TEST_CASE("shells that cross by less than a grid tells stay as they are where on
   const PolygonSoup bars =
       together({box({-4, -0.04, -0.04}, {4, 0.04, 0.04}), box({-0.03, -4, 0.038}, {0.03, 4, 0.1})});
   const SurfaceSnapshot surface = make_snapshot(build_mesh(bars));
-  const std::vector<std::vector<Index>> groups = crossing_shells(surface);
-  REQUIRE(groups.size() == 1);
-  CHECK(unite_shells(surface, groups, {}).solids == 1);
+  const CrossingShells crossing = crossing_shells(surface);
+  REQUIRE(crossing.groups.size() == 1);
+  CHECK(unite_shells(surface, crossing, {}).solids == 1);
   UniteOptions options;
   options.cell = 0.01;
-  const UnitedShells apart = unite_shells(surface, groups, options);
+  const UnitedShells apart = unite_shells(surface, crossing, options);
   CHECK(apart.shells == 0);
   CHECK(apart.left_apart == 0);
   CHECK(apart.soup.points.empty());
@@ -332,13 +332,13 @@ TEST_CASE("shells in one place or that meet in many faces ask more often whether
     Execution execution;
     execution.threads = 1;
     execution.progress = [&](const char*, double) { return ++asked[k][0] > 0; };
-    const std::vector<std::vector<Index>> groups = crossing_shells(surface, execution);
-    REQUIRE(groups.size() == 1);
+    const CrossingShells crossing = crossing_shells(surface, execution);
+    REQUIRE(crossing.groups.size() == 1);
     execution.progress = [&](const char*, double) { return ++asked[k][1] > 0; };
-    (void)unite_shells(surface, groups, {}, execution);
+    (void)unite_shells(surface, crossing, {}, execution);
     int again = 0;
     execution.progress = [&](const char*, double) { return ++again < asked[k][1]; };
-    CHECK_THROWS_AS(unite_shells(surface, groups, {}, execution), Cancelled);
+    CHECK_THROWS_AS(unite_shells(surface, crossing, {}, execution), Cancelled);
     CHECK(again == asked[k][1]);
   }
   // Every vertex and face of the copies is looked at.

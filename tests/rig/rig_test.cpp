@@ -12,6 +12,7 @@
 #include "mspskel/render/render.h"
 #include "mspskel/rig/make_rig.h"
 #include "support/meshes.h"
+#include "support/questions.h"
 
 using namespace mspskel;
 
@@ -417,6 +418,17 @@ TEST_CASE("a .glb has its lengths right") {
   }
   CHECK(format_glb(scene).find("_RADIUS") != std::string::npos);
   CHECK(format_rigged_glb(scene, rig).find("inverseBindMatrices") != std::string::npos);
+}
+
+TEST_CASE("a rig that drops joints asks more often whether to stop") {
+  const auto questions = [](Index joints) {
+    RigOptions options;
+    options.joints = joints;
+    return test::questions_of([&](const ProgressCallback& progress) {
+      make_rig(beast().surface, beast().skeleton, options, progress);
+    });
+  };
+  CHECK(questions(2) > questions(0) + 4);
 }
 
 TEST_CASE("options out of range, other surfaces and empty skeletons are refused") {

@@ -16,6 +16,7 @@
 #include "mspskel/segment/smooth_borders.h"
 #include "mspskel/segment/split_at_creases.h"
 #include "support/meshes.h"
+#include "support/questions.h"
 
 using namespace mspskel;
 
@@ -388,6 +389,15 @@ std::vector<Index> first_cut_off(const CurveSkeleton& skeleton) {
 }
 
 }  // namespace
+
+TEST_CASE("the cuts of a skeleton ask whether to stop, each for the two parts that it makes") {
+  const CurveSkeleton skeleton = body_with({{8, 1.5, 20}, {16, 1.0, 8}});
+  Index count = 0;
+  const int asked = test::questions_of(
+      [&](const ProgressCallback& progress) { count = find_parts(skeleton, {}, {}, progress).count; });
+  CHECK(count == 3);
+  CHECK(asked == 1 + 2 * (count - 1));
+}
 
 TEST_CASE("the first cut is the shortest for the surface that it cuts off") {
   const auto nodes_from = [](Index first, Index count) {

@@ -7,6 +7,7 @@
 #include "mspskel/mesh/build_mesh.h"
 #include "mspskel/repair/mend_soup.h"
 #include "mspskel/samples/samples.h"
+#include "support/questions.h"
 #include "support/soups.h"
 #include "topology/voxel_solids.h"
 
@@ -55,6 +56,33 @@ TEST_CASE("a search among the ways of a class asks whether to stop") {
   CHECK(paths.path_of_class(a, b, CrossingLabels(), CocycleLabel(), way));
   goes_on = false;
   CHECK_THROWS_AS(paths.path_of_class(a, b, CrossingLabels(), CocycleLabel(), way), Cancelled);
+}
+
+TEST_CASE("a long search, and one that sets landmarks, asks whether to stop") {
+  SampleOptions options;
+  options.resolution = 8000;
+  const SurfaceSnapshot surface = make_snapshot(build_mesh(make_sample("torus", options)));
+  const BoundingVolumeHierarchy solid(surface);
+  ProgressCallback progress;
+  Execution execution;
+  execution.threads = 1;
+  execution.progress = [&](const char* stage, double share) { return !progress || progress(stage, share); };
+  const auto questions = [&](int searches) {
+    return questions_of([&](const ProgressCallback& asked) {
+      progress = {};
+      detail::InnerGraph paths(surface, solid, execution);
+      paths.prepare();
+      progress = asked;
+      Index far = 0;
+      for (Index v = 0; v < surface.vertex_count(); ++v)
+        if ((paths.point(v) - paths.point(0)).norm() > (paths.point(far) - paths.point(0)).norm()) far = v;
+      std::vector<Vector3> way;
+      for (int i = 0; i < searches; ++i)
+        paths.path(paths.point(i % 2 == 0 ? 0 : far), paths.point(i % 2 == 0 ? far : 0), way);
+    });
+  };
+  // The first one prepares, eight of the whole graph set the landmarks.
+  CHECK(questions(8) > questions(1) + 40);
 }
 
 TEST_CASE("the surface of a voxel block of many faces has no gates") {

@@ -13,6 +13,7 @@
 #include "mspskel/limbs/limb_tips.h"
 #include "mspskel/samples/polygonise.h"
 #include "mspskel/solid/detail/inner_graph.h"
+#include "support/questions.h"
 #include "support/solids.h"
 
 using namespace mspskel;
@@ -70,6 +71,14 @@ TEST_CASE("Thin walls round a hollow are shells, and thick or flat things are no
   CHECK_FALSE(is_shell(prism(4, 5, 9)));
   CHECK_FALSE(is_shell(sample("plate", 3000)));
   CHECK_FALSE(is_shell(to_mesh(polygonise(skin_solid(tripod()), 1500, 0.2))));
+}
+
+TEST_CASE("The chords of a wall are measured with questions between them") {
+  const Solid solid(glass(0, 8000));
+  const VertexSlices slices = solid.slices();
+  CHECK(questions_of([&](const ProgressCallback& progress) {
+          (void)find_shells(solid.surface, solid.hierarchy, slices, progress);
+        }) > 4);
 }
 
 TEST_CASE("A glass keeps what its axis has of the solid, whatever the triangles") {

@@ -33,8 +33,10 @@ PolygonSoup to_polygon_soup(const DefaultMesh& mesh);
 // vertex, MeshError that names a point that is not finite.
 std::string format_mesh(const PolygonSoup& soup, MeshFormat format, const WriteMeshOptions& options = {});
 
-// Format by extension (.off .obj .ply; "-" writes OFF to standard output), written as write_file_atomically
-// does. Throws UsageError for another extension, WriteError if the file cannot be written.
+// By extension, in any case (.off .obj .ply); "-" is OFF. Throws UsageError for another extension.
+MeshFormat written_mesh_format_of(const std::string& path);
+
+// format_mesh for the path's extension, written as write_file_atomically does. Throws WriteError, too.
 void write_mesh(const std::string& path, const PolygonSoup& soup, const WriteMeshOptions& options = {});
 void write_mesh(const std::string& path, const DefaultMesh& mesh, const WriteMeshOptions& options = {});
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mspskel/arcs/merge_joints.h"
+#include "mspskel/base/progress.h"
 #include "mspskel/refine/find_digits.h"
 #include "mspskel/refine/prune_branches.h"
 
@@ -12,9 +13,10 @@ namespace mspskel {
 // led on into it instead. The digit's vertices, which are those of `surface` and the graph, go to its arc.
 // The homotopy type stays: arcs are leaf arcs, and joints merge as in merge_joints. Digits within the ball of
 // where their arcs begin get none. Returns the number of arcs added. Cost: O(points of the graph + vertices)
-// and some dozen queries a digit.
+// and some dozen queries a digit. Throws Cancelled.
 Index reach_digits(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
-                   const std::vector<Digit>& digits, double step, double joint_overlap);
+                   const std::vector<Digit>& digits, double step, double joint_overlap,
+                   const Execution& execution = {});
 
 }  // namespace mspskel
 

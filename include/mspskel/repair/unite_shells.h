@@ -32,18 +32,23 @@ struct UnitedShells {
   bool resolved = true;  // every grid is fine enough for the thinnest of its shells
 };
 
-// Groups of at least two components that cross each other or are copies, each in order. Contact does not
-// count: an edge or a vertex of one has to lie in the other by a thousandth of the smaller one's extent, or a
-// hundredth of its width (four times volume over area) where that is less. Copies lie within 0.005 of their
-// width of each other everywhere. Cost: a box query a face. Throws Cancelled.
-std::vector<std::vector<Index>> crossing_shells(const SurfaceSnapshot& surface,
-                                                const Execution& execution = {});
+struct CrossingShells {
+  // At least two components that cross each other or are copies, each group in order.
+  std::vector<std::vector<Index>> groups;
+  // Per component the first one that it is a copy of, which is none itself; kNone. Empty without groups.
+  std::vector<Index> copy_of;
+};
+
+// Contact does not count: an edge or a vertex of one has to lie in the other by a thousandth of the smaller
+// one's extent, or a hundredth of its width (four times volume over area) where that is less. Copies lie
+// within 0.005 of their width of each other everywhere. Cost: a box query a face. Throws Cancelled.
+CrossingShells crossing_shells(const SurfaceSnapshot& surface, const Execution& execution = {});
 
 // Whether two components have all their vertices in the same places: a part that a file holds twice. They
 // touch everywhere and cross nowhere. O(vertices log vertices).
 bool has_repeated_shells(const SurfaceSnapshot& surface);
 
-// Each group of crossing_shells becomes the boundary of the union of their solids; of copies one stays as it
+// Each group of `crossing` becomes the boundary of the union of their solids; of copies one stays as it
 // is.
 //   The shells' triangles are cut along the curves where they cross, and those within another shell's solid
 // are left out: as fine as the shells, with the handles of their union. Each shell is moved by up to 2e-7 of
@@ -66,7 +71,7 @@ bool has_repeated_shells(const SurfaceSnapshot& surface);
 // Positions are those of the shells, or within a cell of them. Cost: O(pairs of faces that meet) and the
 // square of those of one face; on a grid O(area / cell²) inside queries and distances, in parallel. Throws
 // Cancelled.
-UnitedShells unite_shells(const SurfaceSnapshot& surface, const std::vector<std::vector<Index>>& groups,
+UnitedShells unite_shells(const SurfaceSnapshot& surface, const CrossingShells& crossing,
                           const UniteOptions& options = {}, const Execution& execution = {});
 
 }  // namespace mspskel

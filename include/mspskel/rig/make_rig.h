@@ -1,6 +1,7 @@
 // A rig from a skeleton and its surface map.
 #pragma once
 
+#include "mspskel/base/progress.h"
 #include "mspskel/mesh/surface_snapshot.h"
 #include "mspskel/rig/rig.h"
 #include "mspskel/skeleton/curve_skeleton.h"
@@ -30,7 +31,8 @@ void validate(const RigOptions& options);
 // of the third stretch between junctions, "limb2_1" that of the second limb; where limbs mirror each other
 // they end in _L and _R. docs/rigging.md has pictures. Throws UsageError for options out of range, a skeleton
 // without nodes or one whose map does not fit the surface. O(nodes log nodes + joints * nodes + vertices log
-// vertices).
-Rig make_rig(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton, const RigOptions& options = {});
+// vertices). Throws Cancelled.
+Rig make_rig(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton, const RigOptions& options = {},
+             const ProgressCallback& progress = {});
 
 }  // namespace mspskel

@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "mspskel/base/progress.h"
 #include "mspskel/skeleton/curve_skeleton.h"
 
 namespace mspskel {
@@ -43,8 +44,9 @@ struct SkeletonParts {
 // are the nodes' mean minimum slice perimeters, or the length of the border that the cut has on the surface
 // where that is longer: a plate's corner is no limb. Cuts are made one by one, the cleanest first; one cut
 // through an arc that is on no cycle, two through an arc that is. Parts are numbered in the order in which
-// they were cut off. Throws UsageError for options out of range. Cost: O(parts * nodes^2) at worst.
+// they were cut off. Throws UsageError for options out of range, Cancelled; the callback is
+// asked once a part. Cost: O(parts * nodes^2) at worst.
 SkeletonParts find_parts(const CurveSkeleton& skeleton, const std::vector<NodeContact>& contacts,
-                         const PartOptions& options = {});
+                         const PartOptions& options = {}, const ProgressCallback& progress = {});
 
 }  // namespace mspskel

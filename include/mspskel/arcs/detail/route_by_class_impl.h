@@ -31,7 +31,10 @@ class TubeRouter {
     for (std::size_t a = 0; a < count; ++a)
       if (in_cycle[a]) arcs.push_back(static_cast<Index>(a));
     for (const Index a : arcs)
-      for (const Index hub : graph_.arcs[a].hub) settle(hub);
+      for (const Index hub : graph_.arcs[a].hub) {
+        report_progress(execution.progress, "arcs", 0.0);
+        settle(hub);
+      }
     std::atomic<std::size_t> next{0};
     std::atomic<Index> routed{0}, abandoned{0};
     const auto lead_arcs = [&](const Execution& own) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mspskel/base/value_at_rank.h"
+#include "mspskel/base/watch.h"
 #include "mspskel/limbs/detail/growing_parts.h"
 #include "mspskel/limbs/detail/limb_end.h"
 #include "mspskel/limbs/detail/part_level.h"
@@ -31,17 +32,20 @@ struct FoundLimb {
 class LimbTipSearch {
  public:
   LimbTipSearch(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
-                const VertexSlices& slices, const LimbOptions& options, const std::vector<double>& distance)
+                const VertexSlices& slices, const LimbOptions& options, const std::vector<double>& distance,
+                const ProgressCallback& progress)
       : surface_(surface),
         solid_(solid),
         slices_(slices),
         options_(options),
         distance_(distance),
+        watch_(progress, "arcs"),
         half_area_(half_areas_of_components(surface)),
         walked_(surface.position.size(), 0),
         end_(surface),
         flooded_(surface.position.size(), 0) {}
 
+  // Throws Cancelled.
   std::vector<FoundLimb> run() {
     std::vector<Index> reached, place(surface_.position.size(), kNone);
     for (Index v = 0; v < surface_.vertex_count(); ++v)
@@ -49,6 +53,7 @@ class LimbTipSearch {
     GrowingParts<Notes> parts(surface_, distance_, std::move(reached), place);
     parts.grow(
         [&](Part& high, Part& low, Index saddle) {
+          watch_.ask();
           judge_before(high, saddle);
           judge_before(low, saddle);
           if (finish(low)) high.notes.own = std::max(high.notes.own, distance_[saddle]);
@@ -56,8 +61,14 @@ class LimbTipSearch {
           high.notes.vertices += low.notes.vertices;
           high.notes.euler += low.notes.euler;
         },
-        [&](Part& part, Index v) { join(part, v); });
-    parts.for_each_left([&](Part& part) { finish(part); });
+        [&](Part& part, Index v) {
+          watch_.step();
+          join(part, v);
+        });
+    parts.for_each_left([&](Part& part) {
+      watch_.ask();
+      finish(part);
+    });
     return std::move(limbs_);
   }
 
@@ -285,6 +296,7 @@ class LimbTipSearch {
     const Index flood = ++last_flood_;
     double area = 0;
     for (std::size_t i = 0; i < loop.size() && area <= least; ++i) {
+      watch_.step();
       area += surface_.vertex_area[loop[i]];
       for_each_neighbour(surface_, loop[i], [&](Index w) {
         if (walked_[w] == walk_ || flooded_[w] == flood) return;
@@ -347,6 +359,7 @@ class LimbTipSearch {
   const VertexSlices& slices_;
   const LimbOptions& options_;
   const std::vector<double>& distance_;
+  Watch watch_;
   std::vector<double> half_area_;  // of each component
   std::vector<Index> walked_;      // the last walk that came by
   Index walk_ = 0;

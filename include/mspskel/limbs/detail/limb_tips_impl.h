@@ -220,12 +220,13 @@ MSPSKEL_INLINE std::vector<LimbTip> find_limb_tips(const SurfaceSnapshot& surfac
   const auto middle = detail::middle_of_components(surface, ways, solid, slices);
   const std::vector<double> distance = inner_distances(surface, ways, solid, middle, execution);
   std::vector<detail::FoundLimb> limbs =
-      detail::LimbTipSearch(surface, solid, slices, options, distance).run();
-  for (detail::Plate& plate : detail::PlateSearch(surface, solid, options).run())
+      detail::LimbTipSearch(surface, solid, slices, options, distance, execution.progress).run();
+  for (detail::Plate& plate : detail::PlateSearch(surface, solid, options, execution.progress).run())
     detail::judge_as_one(std::move(plate), limbs);
   constexpr double kLobe = 0.45;  // half of a tube and of a plank, a third of a disc round its stem
   std::vector<LimbTip> tips;
   for (const detail::FoundLimb& limb : limbs) {
+    report_progress(execution.progress, "arcs", 0.0);
     tips.push_back(limb.tip);
     tips.back().position = surface.position[limb.tip.vertex];
     const LimbMeasures& m = limb.tip.measures;
@@ -233,7 +234,7 @@ MSPSKEL_INLINE std::vector<LimbTip> find_limb_tips(const SurfaceSnapshot& surfac
                           solid.inside(detail::middle_of(surface, limb.part));
     detail::keep_target_well_inside(tips.back(), solid);
   }
-  const std::vector<bool> shells = find_shells(surface, solid, slices);
+  const std::vector<bool> shells = find_shells(surface, solid, slices, execution.progress);
   drop_tips_in_walls(surface, solid, shells, tips);
   detail::add_body_ends(surface, shells, detail::BodyEnds(surface, solid, limbs), tips);
   detail::add_longest_ways(surface, ways, distance, tips);

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "mspskel/base/watch.h"
 #include "mspskel/limbs/detail/growing_parts.h"
 #include "mspskel/limbs/detail/limb_search.h"
 #include "mspskel/solid/detail/inward_chord.h"
@@ -29,20 +30,21 @@ struct Plate {
 class PlateSearch {
  public:
   PlateSearch(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
-              const LimbOptions& options)
+              const LimbOptions& options, const ProgressCallback& progress)
       : surface_(surface),
         solid_(solid),
         options_(options),
         half_area_(half_areas_of_components(surface)),
         tried_(static_cast<std::size_t>(surface.face_count()), false),
         grown_(tried_.size(), 0),
-        chord_(tried_.size(), -1.0) {
+        chord_(tried_.size(), -1.0),
+        watch_(progress, "arcs") {
     for (Index f = 0; f < surface.face_count(); ++f)
       normal_.push_back(surface.face_normal_times_twice_area(f).normalized());
   }
 
-  // Cost: up to two rays a face that a plate comes by, at most kWork times the faces; nothing where no edge
-  // is sharp.
+  // Throws Cancelled. Cost: up to two rays a face that a plate comes by, at most kWork times the faces;
+  // nothing where no edge is sharp.
   std::vector<Plate> run() {
     constexpr std::size_t kWork = 16;
     std::vector<Plate> plates;
@@ -145,6 +147,7 @@ class PlateSearch {
   std::vector<Index> faces_of(const Slab& slab, Index first) {
     constexpr double kReach = 0.75;  // thicknesses
     const auto belongs = [&](Index f) {
+      watch_.step();
       if (std::abs(slab.across.dot(middle(f) - slab.middle)) > kReach * slab.thickness) return false;
       const double here = thickness_at(f, slab);
       return here < kAlike * slab.thickness && slab.thickness < kAlike * here;
@@ -326,6 +329,7 @@ class PlateSearch {
   Index growth_ = 0;
   std::size_t work_ = 0;       // faces that plates came by
   std::vector<double> chord_;  // inward from each face; negative where it was not asked for
+  Watch watch_;
 };
 
 }  // namespace detail

@@ -96,7 +96,7 @@ inline ExtractResult extract_component(SurfaceSnapshot surface, const SurfaceSna
     // On the input itself: coarser surfaces show no digits.
     result.digits = reach_digits(
         arcs, shells, solid, find_digits(arcs, shells, solid, options.refinement.limbs, options.execution),
-        options.refinement.centering.step, options.refinement.joint_overlap);
+        options.refinement.centering.step, options.refinement.joint_overlap, options.execution);
     clock.lap("digits");
     if (options.refinement.node_spacing) space_nodes(arcs, solid, *options.refinement.node_spacing);
     if (options.refinement.nodes > 0) {

@@ -9,6 +9,7 @@
 #include "mspskel/arcs/detail/arc_points.h"
 #include "mspskel/arcs/detail/graph_points.h"
 #include "mspskel/base/linkage.h"
+#include "mspskel/base/watch.h"
 #include "mspskel/refine/detail/arc_leaves.h"
 #include "mspskel/refine/detail/arc_sections.h"
 #include "mspskel/refine/detail/equal_limbs.h"
@@ -30,6 +31,7 @@ class LimbCompletion {
         options_(options),
         step_(step),
         inner_(inner),
+        watch_(execution.progress, "arcs"),
         execution_(execution),
         ways_(graph, inner, step),
         uncovered_(graph, surface_, all_balls(graph, ArcBalls(graph, solid_, execution)), execution),
@@ -47,6 +49,7 @@ class LimbCompletion {
       std::vector<double> reach;
       for (const LimbTip& tip : found) reach.push_back(uncovered_.distance(tip.vertex));
       for (std::size_t i = 0; i < found.size(); ++i) {
+        watch_.ask();
         const Index top = found[i].vertex;
         if (uncovered_.distance(top) < kLeft * reach[i]) continue;
         if (try_limb(top, found[i].measures.half_width)) {
@@ -86,6 +89,7 @@ class LimbCompletion {
 
   // The end of a body lies in its middle, so the way to it is straight or none.
   bool reach_tip(const LimbTip& tip) {
+    watch_.ask();
     if (tip.kind != TipKind::kBodyEnd) return try_limb(tip.vertex, tip.measures.half_width);
     const Index component = surface_.component[tip.vertex];
     const auto own = [&](Index hub) { return hub_component_[hub] == component; };
@@ -151,7 +155,10 @@ class LimbCompletion {
   std::vector<LimbTip> uncovered_limbs() {
     const std::vector<SlenderPart> parts = uncovered_.parts(least_protrusion(), inner_.is_input());
     std::vector<std::optional<PartLevel>> levels;
-    for (const SlenderPart& part : parts) levels.push_back(limb_level(part));
+    for (const SlenderPart& part : parts) {
+      watch_.ask();
+      levels.push_back(limb_level(part));
+    }
     const std::vector<bool> limb = equal_answers(
         parts.size(), [&](std::size_t i) { return levels[i].has_value(); },
         [&](std::size_t i, std::size_t j) { return are_alike(uncovered_, parts[i], parts[j]); },
@@ -208,6 +215,7 @@ class LimbCompletion {
   const LimbOptions& options_;
   double step_;
   InnerGraph& inner_;
+  Watch watch_;
   const Execution& execution_;
   LimbWays ways_;
   UncoveredSurface uncovered_;

@@ -25,10 +25,15 @@ template <class IsTold, class AreAlike, class IsBlunt>
 std::vector<bool> equal_answers(std::size_t count, IsTold is_told, AreAlike are_alike, IsBlunt is_blunt) {
   std::vector<bool> limb(count);
   for (std::size_t i = 0; i < count; ++i) {
+    if (!is_blunt(i)) {
+      limb[i] = is_told(i);
+      for (std::size_t j = 0; j < count && !limb[i]; ++j) limb[i] = is_told(j) && are_alike(i, j);
+      continue;
+    }
     std::size_t told = 0, untold = 0;
     for (std::size_t j = 0; j < count; ++j)
       if (i == j || are_alike(i, j)) ++(is_told(j) ? told : untold);
-    limb[i] = told > (is_blunt(i) ? untold : 0);
+    limb[i] = told > untold;
   }
   return limb;
 }

@@ -7,6 +7,7 @@
 
 #include "mspskel/arcs/detail/graph_points.h"
 #include "mspskel/base/linkage.h"
+#include "mspskel/base/watch.h"
 #include "mspskel/refine/detail/arc_leaves.h"
 
 namespace mspskel {
@@ -21,18 +22,20 @@ inline bool leads_on(const Vector3& from, const Vector3& by, const Vector3& to) 
 class DigitArcs {
  public:
   DigitArcs(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
-            const std::vector<Digit>& digits, double step)
+            const std::vector<Digit>& digits, double step, const ProgressCallback& progress)
       : graph_(graph),
         surface_(surface),
         solid_(solid),
         digits_(digits),
         step_(step),
+        watch_(progress, "digits"),
         component_(components_of_pieces(graph, surface)) {}
 
   Index run() {
     const ArcLeaves leaves(graph_, graph_.incidence());
     const std::vector<std::size_t> leaf = leaves_of_digits(leaves);
     for (std::size_t i = 0; i < digits_.size(); ++i) {
+      watch_.ask();
       if (leaf[i] == kNoLeaf) continue;
       lead_on(leaves.leaf[leaf[i]], digits_[i]);
       give_vertices(digits_[i], leaves.leaf[leaf[i]].arc);
@@ -89,6 +92,7 @@ class DigitArcs {
       for (std::size_t k = 0; k < digit.way.size(); ++k)
         for (const auto& [distance, start] : starts) {
           if (behind && !leads_on(start.position, digit.way[k], digit.tip)) continue;
+          watch_.ask();
           std::vector<Vector3> line = line_into(digit, k, start.position);
           if (line.empty()) continue;
           // Inside that ball it would be a spur.
@@ -159,6 +163,7 @@ class DigitArcs {
   const BoundingVolumeHierarchy& solid_;
   const std::vector<Digit>& digits_;
   double step_;
+  Watch watch_;
   std::vector<Index> component_;   // of each hub
   std::vector<Index> digit_tips_;  // hubs at the ends of the arcs added
 };
@@ -167,8 +172,8 @@ class DigitArcs {
 
 MSPSKEL_INLINE Index reach_digits(ArcGraph& graph, const SurfaceSnapshot& surface,
                                   const BoundingVolumeHierarchy& solid, const std::vector<Digit>& digits,
-                                  double step, double joint_overlap) {
-  const Index added = detail::DigitArcs(graph, surface, solid, digits, step).run();
+                                  double step, double joint_overlap, const Execution& execution) {
+  const Index added = detail::DigitArcs(graph, surface, solid, digits, step, execution.progress).run();
   if (added == 0) return 0;
   merge_joints(graph, solid, joint_overlap);
   const Index spurs = remove_spurs(graph, solid);

@@ -65,7 +65,7 @@ class ArcRefinement {
     prune();
     center(options_.centering);
     settle_strays();
-    const std::vector<bool> shells = find_shells(surface_, solid_, slices_);
+    const std::vector<bool> shells = find_shells(surface_, solid_, slices_, execution_.progress);
     tighten(shells);
     lay();  // straight again: in a block every wall is as near, and centring goes where the noise leads
     lay_paths(shells);

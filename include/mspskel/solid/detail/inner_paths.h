@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "mspskel/base/progress.h"
+#include "mspskel/base/watch.h"
 #include "mspskel/collapse/crossing_labels.h"
 #include "mspskel/solid/detail/inner_net.h"
 #include "mspskel/solid/detail/landmarks.h"
@@ -38,7 +39,7 @@ class InnerPaths {
   // turn: where one of them lies in a pocket that only a dear way leaves, it comes by few vertices more than
   // that pocket has. With a bound it goes from a, and gives up where it comes by more than `most` vertices.
   // Cost: what it comes by. Where searches without a bound have come by many vertices, those after them go
-  // toward their other ends, so that they come by few that do not lie on the way.
+  // toward their other ends, so that they come by few that do not lie on the way. Throws Cancelled.
   bool path(const Vector3& a, const Vector3& b, std::vector<Vector3>& between, Index most = kAnyNumber) {
     for (const Index v : marked_)
       for (auto& side : marks_) side[v] = {};
@@ -80,8 +81,10 @@ class InnerPaths {
       meeting[1 - side] = others;
     };
     std::size_t came_by = 0;
+    Watch watch(net_.execution().progress, kStage);
     for (int side = 0; !queue[0].empty() && !queue[1].empty(); side = in_turn ? 1 - side : 0) {
       if (queue[0].top().first + queue[1].top().first >= best) break;
+      watch.step();
       const auto [cost, v, before] = queue[side].top().second;
       queue[side].pop();
       // Whether an edge stays inside is asked where it would be the cheapest way, which few edges are.
@@ -130,8 +133,10 @@ class InnerPaths {
       queue.push({InnerNet::step_cost(distance, net_.clearance(v)), v, kNone});
     std::unordered_set<Index> goal;
     for (const auto& [distance, v] : net_.entries(b)) goal.insert(v);
-    for (std::size_t popped = 0; !queue.empty() && places.size() < kLabels * marks_[0].size(); ++popped) {
-      if (popped % 1024 == 0) report_progress(net_.execution().progress, "arcs", 0.5);
+    Watch watch(net_.execution().progress, kStage);
+    watch.ask();
+    while (!queue.empty() && places.size() < kLabels * marks_[0].size()) {
+      watch.step();
       const auto [cost, v, before] = queue.top();
       queue.pop();
       CocycleLabel label = before == kNone ? crossings(a, net_.point(v))
@@ -162,6 +167,7 @@ class InnerPaths {
   const InnerNet& net() const { return net_; }
 
  private:
+  static constexpr const char* kStage = "arcs";
   static constexpr Index kAnyNumber = std::numeric_limits<Index>::max();
 
   // A point reached by ways of one class, and the place before it.
@@ -198,7 +204,11 @@ class InnerPaths {
     if (!landmarks_.empty()) return;
     came_by_ += came_by;
     if (came_by_ < kSearches * marks_[0].size()) return;
-    landmarks_.build(net_.node_count(), goal, [&](Index v, auto visit) { net_.for_each_edge(v, visit); });
+    Watch watch(net_.execution().progress, kStage);
+    landmarks_.build(net_.node_count(), goal, [&](Index v, auto visit) {
+      watch.step();
+      net_.for_each_edge(v, visit);
+    });
   }
 
   InnerNet net_;

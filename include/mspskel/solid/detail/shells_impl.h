@@ -5,16 +5,18 @@
 
 #include "mspskel/base/linkage.h"
 #include "mspskel/base/value_at_rank.h"
+#include "mspskel/base/watch.h"
 #include "mspskel/mesh/detail/solid_moments.h"
 #include "mspskel/solid/detail/inward_chord.h"
 
 namespace mspskel {
 MSPSKEL_INLINE std::vector<bool> find_shells(const SurfaceSnapshot& surface,
-                                             const BoundingVolumeHierarchy& solid,
-                                             const VertexSlices& slices) {
+                                             const BoundingVolumeHierarchy& solid, const VertexSlices& slices,
+                                             const ProgressCallback& progress) {
   constexpr double kThin = 0.3;       // half widths
   constexpr double kWall = 2.0 / 3;   // share of the area
   constexpr double kPossible = 0.45;  // half the mean thickness, median half widths
+  detail::Watch watch(progress, "arcs");
   std::vector<bool> shell(static_cast<std::size_t>(surface.component_count), false);
   std::vector<std::vector<Index>> vertices(shell.size());
   for (Index v = 0; v < surface.vertex_count(); ++v)
@@ -32,6 +34,7 @@ MSPSKEL_INLINE std::vector<bool> find_shells(const SurfaceSnapshot& surface,
     // A wall of area A, both sides, and thickness t has volume A t / 2.
     if (!(std::abs(moments[c].volume) < kPossible * width * area[c] / 2)) continue;
     for (const Index v : vertices[c]) {
+      watch.step();
       sliced += surface.vertex_area[v];
       if (detail::half_chord(surface, solid, v) < kThin * slices.half_width[v])
         thin += surface.vertex_area[v];
