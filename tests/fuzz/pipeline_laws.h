@@ -169,9 +169,10 @@ Index count_calls(Work work) {
   return calls;
 }
 
-// A callback that says no at its n-th call stops the work there.
+// A callback that says no at its n-th call stops the work there; short work asks nothing.
 template <class Work>
 void check_cancelling(Work work, Index calls, Choices& choices) {
+  if (calls == 0) return;
   const Index last = 1 + static_cast<Index>(choices.uniform(0, 0.999) * calls);
   Index asked = 0;
   Execution execution;
