@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <optional>
 
@@ -17,6 +16,7 @@
 #include "join_touching_pieces.h"
 #include "mspskel/base/error.h"
 #include "pair_faces.h"
+#include "unit_of_length.h"
 #include "watch.h"
 #include "weld_points.h"
 
@@ -243,23 +243,6 @@ void check_ranges(const PolygonSoup& soup) {
     throw MeshError("the polygons' ranges do not cover their corners");
 }
 
-// The power of two by which lengths are measured where their sixth powers, squares of volumes, would be no
-// numbers else: 0 for all usual models.
-int exponent_of_unit(const PolygonSoup& soup) {
-  constexpr int kMost = 100;
-  double largest = 0;
-  for (const Index v : soup.corners)
-    if (v >= 0 && v < static_cast<Index>(soup.points.size()) && soup.points[v].allFinite())
-      largest = std::max(largest, soup.points[v].cwiseAbs().maxCoeff());
-  if (largest == 0) return 0;
-  const int exponent = std::ilogb(largest);
-  return std::abs(exponent) > kMost ? exponent : 0;
-}
-
-Vector3 scaled(const Vector3& p, int exponent) {
-  return {std::scalbn(p[0], exponent), std::scalbn(p[1], exponent), std::scalbn(p[2], exponent)};
-}
-
 }  // namespace
 
 void validate(const MendOptions& options) {
@@ -274,14 +257,14 @@ void validate(const MendOptions& options) {
 MendedSoup mend_soup(const PolygonSoup& soup, const MendOptions& options, const ProgressCallback& progress) {
   validate(options);
   check_ranges(soup);
-  const int exponent = exponent_of_unit(soup);
+  const int exponent = detail::exponent_of_unit(soup);
   if (exponent == 0) return Mending(soup, options, progress).run();
   PolygonSoup near_one = soup;
-  for (Vector3& p : near_one.points) p = scaled(p, -exponent);
+  detail::scale_points(near_one, -exponent);
   MendedSoup mended = Mending(near_one, options, progress).run();
-  for (Vector3& p : mended.soup.points) p = scaled(p, exponent);
+  detail::scale_points(mended.soup, exponent);
   for (Opening& opening : mended.openings) {
-    opening.centre = scaled(opening.centre, exponent);
+    for (double& x : opening.centre) x = std::scalbn(x, exponent);
     opening.radius = std::scalbn(opening.radius, exponent);
   }
   return mended;

@@ -68,6 +68,19 @@ TEST_CASE("Faces that do not meet are wrapped to the solid that they stand round
   }
 }
 
+TEST_CASE("A wrap does not depend on the unit of length, however small or large") {
+  const PolygonSoup loose = loose_faces("capsule", 200, 0.2);
+  WrapOptions options;
+  options.gap = 0.1;
+  const WrappedSoup usual = wrap_soup(loose, options);
+  const double unit = GENERATE(0x1p-900, 0x1p-450, 0x1p450, 0x1p900);
+  const WrappedSoup wrapped = wrap_soup(moved(loose, unit, Vector3::Zero()), options);
+  CHECK(wrapped.cell == unit * usual.cell);
+  REQUIRE(wrapped.soup.corners == usual.soup.corners);
+  for (std::size_t v = 0; v < usual.soup.points.size(); ++v)
+    REQUIRE(wrapped.soup.points[v] == unit * usual.soup.points[v]);
+}
+
 TEST_CASE("Solids farther apart than the gap stay apart, nearer ones become one") {
   const PolygonSoup ball = loose_faces("sphere", 400, 0.0);
   double width = 0;
