@@ -1,6 +1,7 @@
 #include "mspskel/repair/mend_soup.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -16,6 +17,7 @@
 #include "mspskel/base/error.h"
 #include "mspskel/base/watch.h"
 #include "pair_faces.h"
+#include "unit_of_length.h"
 #include "weld_points.h"
 
 namespace mspskel {
@@ -255,7 +257,17 @@ void validate(const MendOptions& options) {
 MendedSoup mend_soup(const PolygonSoup& soup, const MendOptions& options, const ProgressCallback& progress) {
   validate(options);
   check_ranges(soup);
-  return Mending(soup, options, progress).run();
+  const int exponent = detail::exponent_of_unit(soup);
+  if (exponent == 0) return Mending(soup, options, progress).run();
+  PolygonSoup near_one = soup;
+  detail::scale_points(near_one, -exponent);
+  MendedSoup mended = Mending(near_one, options, progress).run();
+  detail::scale_points(mended.soup, exponent);
+  for (Opening& opening : mended.openings) {
+    for (double& x : opening.centre) x = std::scalbn(x, exponent);
+    opening.radius = std::scalbn(opening.radius, exponent);
+  }
+  return mended;
 }
 
 }  // namespace mspskel

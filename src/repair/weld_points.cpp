@@ -1,6 +1,7 @@
 #include "weld_points.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "disjoint_sets.h"
@@ -11,9 +12,13 @@ namespace mspskel::detail {
 std::vector<Index> weld_equal_points(const std::vector<Vector3>& points) {
   std::vector<Index> order(points.size());
   std::iota(order.begin(), order.end(), 0);
+  // Coordinates that are no numbers come last: they compare with nothing, and an order needs that.
+  const auto less = [](double x, double y) { return x < y || (std::isnan(y) && !std::isnan(x)); };
   const auto before = [&](Index a, Index b) {
-    for (int k = 0; k < 3; ++k)
-      if (points[a][k] != points[b][k]) return points[a][k] < points[b][k];
+    for (int k = 0; k < 3; ++k) {
+      if (less(points[a][k], points[b][k])) return true;
+      if (less(points[b][k], points[a][k])) return false;
+    }
     return false;
   };
   std::sort(order.begin(), order.end(),

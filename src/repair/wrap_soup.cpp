@@ -10,6 +10,7 @@
 #include "outside_flood.h"
 #include "point_tree.h"
 #include "tetrahedron_cutter.h"
+#include "unit_of_length.h"
 #include "whole_pieces.h"
 
 namespace mspskel {
@@ -145,16 +146,7 @@ std::vector<Index> nearest_vertices(const PolygonSoup& soup, const WrappedSoup& 
   return vertex_of_point;
 }
 
-}  // namespace
-
-void validate(const WrapOptions& options) {
-  if (options.gap != 0 && !(options.gap >= 0.004 && options.gap <= 0.2))
-    throw UsageError("gaps that wrapping closes must be from 0.004 to 0.2 of the extent, or 0");
-  if (!(options.filled >= 0)) throw UsageError("what shells fill must be at least 0");
-}
-
-WrappedSoup wrap_soup(const PolygonSoup& soup, const WrapOptions& options, const Execution& execution) {
-  validate(options);
+WrappedSoup wrap(const PolygonSoup& soup, const WrapOptions& options, const Execution& execution) {
   detail::Watch watch(execution.progress, "wrapping");
   watch.ask(0.0);
   const SoupWalls walls(soup);
@@ -176,6 +168,29 @@ WrappedSoup wrap_soup(const PolygonSoup& soup, const WrapOptions& options, const
   wrapped.soup = detail::without_short_edges(pieces.soup, detail::kShortEdge * wrapped.cell, watch);
   watch.ask(0.9);
   wrapped.vertex_of_point = nearest_vertices(soup, wrapped, watch);
+  return wrapped;
+}
+
+}  // namespace
+
+void validate(const WrapOptions& options) {
+  if (options.gap != 0 && !(options.gap >= 0.004 && options.gap <= 0.2))
+    throw UsageError("gaps that wrapping closes must be from 0.004 to 0.2 of the extent, or 0");
+  if (!(options.filled >= 0)) throw UsageError("what shells fill must be at least 0");
+}
+
+WrappedSoup wrap_soup(const PolygonSoup& soup, const WrapOptions& options, const Execution& execution) {
+  validate(options);
+  const int exponent = detail::exponent_of_unit(soup);
+  if (exponent == 0) return wrap(soup, options, execution);
+  PolygonSoup near_one = soup;
+  detail::scale_points(near_one, -exponent);
+  WrapOptions near_options = options;
+  near_options.filled = std::scalbn(options.filled, -3 * exponent);
+  WrappedSoup wrapped = wrap(near_one, near_options, execution);
+  detail::scale_points(wrapped.soup, exponent);
+  wrapped.gap = std::scalbn(wrapped.gap, exponent);
+  wrapped.cell = std::scalbn(wrapped.cell, exponent);
   return wrapped;
 }
 

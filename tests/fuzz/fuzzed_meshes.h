@@ -1,4 +1,4 @@
-// Small closed meshes for the pipeline's fuzz target: valid shapes, then edits that a user's tools make.
+// Small closed meshes for the fuzz targets: valid shapes, then edits that a user's tools make.
 #pragma once
 
 #include <map>

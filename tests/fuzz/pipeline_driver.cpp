@@ -1,7 +1,8 @@
-// The pipeline's fuzz target without a fuzzer: one input a seed, in a child process, so that a crash is a
+// The fuzz targets without a fuzzer: one input a seed, in a child process, so that a crash is a
 // finding and not the end. Prints executions and findings, each with its seed; exit status 1 if there are
 // any.
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -14,8 +15,7 @@
 #include <map>
 #include <new>
 
-#include "fuzz/pipeline_laws.h"
-#include "mspskel/base/error.h"
+#include "fuzz/trial.h"
 #include "mspskel/io/write_mesh.h"
 
 using namespace mspskel;
@@ -26,13 +26,16 @@ namespace {
 struct Settings {
   std::uint64_t seed = 1, runs = 0;
   double seconds = 0;
-  int longest = 180;  // processor seconds of an input
+  int longest = 180;   // processor seconds of an input
+  double most = 3072;  // megabytes
+  bool soups = false;
   std::string write;
 };
 
 // What the child tells its parent, also if it dies.
 struct Shared {
-  std::atomic<std::uint64_t> seed{0}, done{0}, refused{0}, warned{0}, broken{0};
+  std::atomic<std::uint64_t> seed{0}, done{0}, broken{0};
+  std::atomic<std::uint64_t> outcomes[std::size(kOutcomeNames)]{};
 };
 
 using Clock = std::chrono::steady_clock;
@@ -53,6 +56,13 @@ void limit_processor_time(int seconds) {
   setitimer(ITIMER_PROF, &timer, nullptr);
 }
 
+// Megabytes that the process has had at most.
+double peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
 void report(std::uint64_t seed, const std::string& what, const std::string& made) {
   std::printf("finding: seed %llu: %s | %s\n", static_cast<unsigned long long>(seed), what.c_str(),
               made.c_str());
@@ -62,22 +72,21 @@ void report(std::uint64_t seed, const std::string& what, const std::string& made
 void run_seed(const Settings& settings, Shared& shared) {
   const std::uint64_t seed = shared.seed;
   Choices choices(seed);
-  const FuzzedInput input = make_input(choices);
+  const Trial trial = make_trial(settings.soups, choices);
   limit_processor_time(settings.longest);
   try {
-    const Outcome outcome = check_pipeline(input, choices);
-    if (outcome == Outcome::kRefused) ++shared.refused;
-    if (outcome == Outcome::kWarned) ++shared.warned;
+    ++shared.outcomes[static_cast<std::size_t>(trial.check(choices))];
+    hold(peak_memory() <= settings.most, "memory is bounded");
   } catch (const std::exception& broken) {
     ++shared.broken;
-    report(seed, broken.what(), input.mesh.made);
+    report(seed, broken.what(), trial.mesh.made);
   }
   limit_processor_time(0);
 }
 
-// Runs seeds until the time is over or one of them kills the process.
+// Runs seeds until the time is over, or one of them kills the process or leaves it too large for the next.
 [[noreturn]] void work(const Settings& settings, Shared& shared, Clock::time_point start) {
-  while (goes_on(settings, shared, start)) {
+  while (goes_on(settings, shared, start) && peak_memory() <= settings.most) {
     run_seed(settings, shared);
     ++shared.done;
     ++shared.seed;
@@ -86,20 +95,18 @@ void run_seed(const Settings& settings, Shared& shared) {
   _exit(0);
 }
 
-// True if the child ended by itself.
-bool await(pid_t child, Shared& shared) {
+void await(pid_t child, const Settings& settings, Shared& shared) {
   int status = 0;
   waitpid(child, &status, 0);
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return true;
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
   Choices choices(shared.seed);
   const std::string what = !WIFSIGNALED(status)          ? "a sanitizer's report"
                            : WTERMSIG(status) == SIGPROF ? "no end"
                                                          : strsignal(WTERMSIG(status));
   ++shared.broken;
-  report(shared.seed, what, make_input(choices).mesh.made);
+  report(shared.seed, what, make_trial(settings.soups, choices).mesh.made);
   ++shared.done;
   ++shared.seed;
-  return false;
 }
 
 int run(const Settings& settings) {
@@ -113,12 +120,17 @@ int run(const Settings& settings) {
     const pid_t child = fork();
     if (child < 0) throw std::runtime_error("no process for the inputs");
     if (child == 0) work(settings, shared, start);
-    if (await(child, shared)) break;
+    await(child, settings, shared);
   }
   const auto count = [](const std::atomic<std::uint64_t>& n) { return static_cast<unsigned long long>(n); };
-  std::printf("%llu executions in %.0f s from seed %llu: %llu refused, %llu with warnings, %llu findings\n",
-              count(shared.done), seconds_since(start), static_cast<unsigned long long>(settings.seed),
-              count(shared.refused), count(shared.warned), count(shared.broken));
+  rusage usage{};
+  getrusage(RUSAGE_CHILDREN, &usage);
+  std::printf("%llu executions in %.0f s, %ld of the processor, from seed %llu:", count(shared.done),
+              seconds_since(start), static_cast<long>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec),
+              static_cast<unsigned long long>(settings.seed));
+  for (std::size_t i = 0; i < std::size(kOutcomeNames); ++i)
+    if (shared.outcomes[i] > 0) std::printf(" %llu %s,", count(shared.outcomes[i]), kOutcomeNames[i]);
+  std::printf(" %llu findings\n", count(shared.broken));
   return shared.broken == 0 ? 0 : 1;
 }
 
@@ -127,17 +139,24 @@ int run(const Settings& settings) {
 int main(int argc, char** argv) {
   Settings settings;
   CLI::App app("Runs the whole pipeline on made-up meshes and options and checks its laws.");
+  app.add_flag("--soups", settings.soups, "soups that are to be mended, not closed meshes");
   app.add_option("--seed", settings.seed, "the first input's")->capture_default_str();
   app.add_option("--runs", settings.runs, "at most so many inputs; 0: no limit")->capture_default_str();
   app.add_option("--seconds", settings.seconds, "stop after so many seconds; 0: never")
       ->capture_default_str();
   app.add_option("--longest", settings.longest, "processor seconds of one input")->capture_default_str();
+  app.add_option("--memory", settings.most, "megabytes of one input")->capture_default_str();
   app.add_option("--write", settings.write, "only write the mesh of --seed to this file and say its options");
   CLI11_PARSE(app, argc, argv);
   if (settings.write.empty()) return run(settings);
   Choices choices(settings.seed);
-  const FuzzedInput input = make_input(choices);
-  write_mesh(settings.write, input.mesh.soup);
-  std::printf("%s\n", input.mesh.made.c_str());
+  const Trial trial = make_trial(settings.soups, choices);
+  std::printf("%s\n", trial.mesh.made.c_str());
+  try {
+    write_mesh(settings.write, trial.mesh.soup);
+  } catch (const Error& error) {  // of coordinates that no file may have
+    std::fprintf(stderr, "%s\n", error.what());
+    return static_cast<int>(error.kind());
+  }
   return 0;
 }

@@ -144,18 +144,42 @@ inline void check_lengths(const ExtractResult& result, const std::vector<Index>&
          "a piece at least a tenth as long as its component, or a warning");
 }
 
-inline void check_threads(const DefaultMesh& mesh, ExtractOptions options, const CurveSkeleton& skeleton) {
-  options.execution.threads = 2;
-  hold(same_bytes(extract_skeleton(mesh, options).skeleton, skeleton), "the same bytes on two threads");
+// What every result promises, of whatever mesh it is.
+inline void check_result(const ExtractResult& result, bool refined) {
+  check_numbers(result.skeleton);
+  check_graph(result);
+  const std::vector<Index> component = node_components(result);
+  const TopologyCertificate certificate = check_certificate(result, component);
+  check_containment(result, component, certificate);
+  if (refined) check_refined(result, certificate);
+  check_lengths(result, component);
 }
 
-// A callback that says no at its n-th call stops the work there.
-inline void check_cancelling(const DefaultMesh& mesh, ExtractOptions options, Index calls, Choices& choices) {
+// Work that takes an execution, on one thread: counts how often it asks whether to go on.
+template <class Work>
+Index count_calls(Work work) {
+  Index calls = 0;
+  Execution execution;
+  execution.threads = 1;
+  execution.progress = [&](const char*, double share) {
+    hold(share >= 0 && share <= 1, "progress is from 0 to 1");
+    return ++calls, true;
+  };
+  work(execution);
+  return calls;
+}
+
+// A callback that says no at its n-th call stops the work there; short work asks nothing.
+template <class Work>
+void check_cancelling(Work work, Index calls, Choices& choices) {
+  if (calls == 0) return;
   const Index last = 1 + static_cast<Index>(choices.uniform(0, 0.999) * calls);
   Index asked = 0;
-  options.execution.progress = [&](const char*, double) { return ++asked < last; };
+  Execution execution;
+  execution.threads = 1;
+  execution.progress = [&](const char*, double) { return ++asked < last; };
   try {
-    (void)extract_skeleton(mesh, options);
+    work(execution);
   } catch (const Cancelled&) {
     return hold(asked == last, "a callback that said no is not asked again");
   }
@@ -163,7 +187,9 @@ inline void check_cancelling(const DefaultMesh& mesh, ExtractOptions options, In
 }
 
 // One input: what became of it.
-enum class Outcome { kExtracted, kWarned, kRefused };
+enum class Outcome { kExtracted, kWarned, kRefused, kMended, kUnited, kWrapped };
+constexpr const char* kOutcomeNames[] = {"extracted", "with warnings", "refused",
+                                         "mended",    "united",        "wrapped"};
 
 struct FuzzedInput {
   FuzzedMesh mesh;
@@ -180,33 +206,28 @@ inline FuzzedInput make_input(Choices& choices) {
 // Throws Broken. Errors that an input does not deserve pass through: options are in range and every closed
 // mesh has a skeleton.
 inline Outcome check_pipeline(const FuzzedInput& input, Choices& choices) {
-  DefaultMesh mesh;
-  ExtractOptions options = input.options;
-  options.execution.threads = 1;
-  Index calls = 0;
-  options.execution.progress = [&](const char*, double share) {
-    hold(share >= 0 && share <= 1, "progress is from 0 to 1");
-    return ++calls, true;
+  const auto extract = [&](const DefaultMesh& mesh, const Execution& execution) {
+    ExtractOptions options = input.options;
+    options.execution = execution;
+    return extract_skeleton(mesh, options);
   };
+  DefaultMesh mesh;
   ExtractResult result;
+  Index calls = 0;
   try {
     mesh = build_mesh(input.mesh.soup);
-    result = extract_skeleton(mesh, options);
+    calls = count_calls([&](const Execution& execution) { result = extract(mesh, execution); });
   } catch (const MeshError&) {
     return Outcome::kRefused;
   }
-  options.execution.progress = nullptr;
-  check_numbers(result.skeleton);
-  check_graph(result);
-  const std::vector<Index> component = node_components(result);
-  const TopologyCertificate certificate = check_certificate(result, component);
-  check_containment(result, component, certificate);
-  if (options.refinement.enabled) check_refined(result, certificate);
-  check_lengths(result, component);
-  if (choices.one_in(2))
-    check_threads(mesh, options, result.skeleton);
-  else
-    check_cancelling(mesh, options, calls, choices);
+  check_result(result, input.options.refinement.enabled);
+  if (choices.one_in(2)) {
+    Execution two;
+    two.threads = 2;
+    hold(same_bytes(extract(mesh, two).skeleton, result.skeleton), "the same bytes on two threads");
+  } else {
+    check_cancelling([&](const Execution& execution) { (void)extract(mesh, execution); }, calls, choices);
+  }
   return result.warnings.empty() ? Outcome::kExtracted : Outcome::kWarned;
 }
 

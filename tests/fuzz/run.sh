@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds the fuzz targets with clang, gives each reader RUNS inputs and the whole pipeline SECONDS; see docs/fuzzing.md.
+# Builds the fuzz targets with clang, gives each reader RUNS inputs, the pipeline and mending SECONDS each; see docs/fuzzing.md.
 # usage: run.sh BUILD_DIR [RUNS [SECONDS]]
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
@@ -19,8 +19,10 @@ for format in off obj ply stl; do
     -artifact_prefix="$build/$format-" "$grown" "$here/corpus/$format"
 done
 ((seconds)) || exit 0
-grown=$build/corpus/pipeline
-mkdir -p "$grown"
-echo "== pipeline"
-OMP_NUM_THREADS=2 "$build/tests/fuzz/fuzz_pipeline" -max_total_time="$seconds" -max_len=128 -timeout=300 -rss_limit_mb=4096 \
-  -print_final_stats=1 -artifact_prefix="$build/pipeline-" "$grown"
+for target in pipeline mending; do
+  grown=$build/corpus/$target
+  mkdir -p "$grown"
+  echo "== $target"
+  OMP_NUM_THREADS=2 "$build/tests/fuzz/fuzz_$target" -max_total_time="$seconds" -max_len=128 -timeout=300 -rss_limit_mb=4096 \
+    -print_final_stats=1 -artifact_prefix="$build/$target-" "$grown"
+done

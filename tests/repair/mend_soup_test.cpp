@@ -8,6 +8,7 @@
 #include "mspskel/base/error.h"
 #include "mspskel/mesh/build_mesh.h"
 #include "mspskel/mesh/mesh_report.h"
+#include "support/damage.h"
 #include "support/meshes.h"
 #include "support/soups.h"
 #include "topology/voxel_solids.h"
@@ -32,31 +33,6 @@ Facts facts_of(const MendedSoup& mended) {
 
 bool same(const PolygonSoup& a, const PolygonSoup& b) {
   return a.points == b.points && a.corners == b.corners && a.begin == b.begin;
-}
-
-// Every face gets points of its own.
-PolygonSoup split(const PolygonSoup& soup) {
-  PolygonSoup result;
-  for (std::size_t f = 0; f < soup.polygon_count(); ++f) {
-    for (Index i = soup.begin[f]; i < soup.begin[f + 1]; ++i) {
-      result.corners.push_back(static_cast<Index>(result.points.size()));
-      result.points.push_back(soup.points[soup.corners[i]]);
-    }
-    result.begin.push_back(static_cast<Index>(result.corners.size()));
-  }
-  return result;
-}
-
-template <class Predicate>
-PolygonSoup without_faces(const PolygonSoup& soup, Predicate drop) {
-  PolygonSoup result;
-  result.points = soup.points;
-  for (std::size_t f = 0; f < soup.polygon_count(); ++f) {
-    const Index* c = soup.corners.data() + soup.begin[f];
-    if (!drop((soup.points[c[0]] + soup.points[c[1]] + soup.points[c[2]]) / 3))
-      result.add_triangle(c[0], c[1], c[2]);
-  }
-  return result;
 }
 
 PolygonSoup torus_soup() { return to_soup(torus(1, 0.4, 40, 20)); }
@@ -92,6 +68,37 @@ TEST_CASE("points of faces that were taken apart are one again, and each finds i
   REQUIRE(mended.soup.points.size() == torus_soup().points.size());
   for (std::size_t v = 0; v < soup.points.size(); ++v)
     REQUIRE(mended.soup.points[mended.vertex_of_point[v]] == soup.points[v]);
+}
+
+TEST_CASE("points that are no numbers keep no others apart") {
+  PolygonSoup soup = split(torus_soup());
+  const auto used = static_cast<Index>(soup.points.size());
+  for (Index i = 0; i < used; ++i)  // among the others
+    soup.points.emplace_back(std::nan(""), i % 7, soup.points[i].z());
+  Random random(5);
+  const std::vector<Index> place = permutation(static_cast<Index>(soup.points.size()), random);
+  std::vector<Vector3> points(soup.points.size());
+  for (std::size_t v = 0; v < place.size(); ++v) points[place[v]] = soup.points[v];
+  soup.points = points;
+  for (Index& v : soup.corners) v = place[v];
+  const MendedSoup mended = mend_soup(soup);
+  REQUIRE(mended.soup.points.size() == torus_soup().points.size());
+  REQUIRE(mended.counts.isolated_points == used);
+  REQUIRE(mended.counts.stitched_points == 0);
+}
+
+TEST_CASE("mending does not depend on the unit of length, however small or large") {
+  const PolygonSoup torn = without_patches(torus_soup(), 3, 0.02, Random(1));
+  const MendedSoup usual = mend_soup(torn);
+  REQUIRE(usual.counts.holes > 0);
+  const double unit = GENERATE(0x1p-900, 0x1p-200, 0x1p200, 0x1p900);
+  PolygonSoup far = torn;
+  for (Vector3& p : far.points) p *= unit;
+  const MendedSoup mended = mend_soup(far);
+  REQUIRE(mended.soup.corners == usual.soup.corners);
+  REQUIRE(mended.counts.hole_share == usual.counts.hole_share);
+  for (std::size_t v = 0; v < usual.soup.points.size(); ++v)
+    REQUIRE(mended.soup.points[v] == unit * usual.soup.points[v]);
 }
 
 TEST_CASE("points beside each other across a seam are stitched") {

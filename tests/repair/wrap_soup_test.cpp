@@ -8,6 +8,7 @@
 #include "mspskel/mesh/build_mesh.h"
 #include "mspskel/mesh/coarsen_surface.h"
 #include "mspskel/samples/samples.h"
+#include "support/damage.h"
 #include "support/soups.h"
 
 using namespace mspskel;
@@ -15,21 +16,10 @@ using namespace mspskel::test;
 
 namespace {
 
-// A closed sample whose faces have corners of their own, drawn in by a share of the way to the middle.
-PolygonSoup loose_faces(const std::string& name, int resolution, double drawn_in) {
+PolygonSoup loose_faces(const std::string& name, int resolution, double drawn_in_share) {
   SampleOptions options;
   options.resolution = resolution;
-  const PolygonSoup closed = make_sample(name, options);
-  PolygonSoup loose;
-  for (std::size_t i = 0; i < closed.corners.size(); i += 3) {
-    Vector3 middle = Vector3::Zero();
-    for (std::size_t k = i; k < i + 3; ++k) middle += closed.points[closed.corners[k]] / 3;
-    for (std::size_t k = i; k < i + 3; ++k)
-      loose.points.push_back((1 - drawn_in) * closed.points[closed.corners[k]] + drawn_in * middle);
-    const auto first = static_cast<Index>(i);
-    loose.add_triangle(first, first + 1, first + 2);
-  }
-  return loose;
+  return drawn_in(make_sample(name, options), drawn_in_share);
 }
 
 PolygonSoup moved(const PolygonSoup& soup, double scale, const Vector3& way) {
@@ -76,6 +66,19 @@ TEST_CASE("Faces that do not meet are wrapped to the solid that they stand round
       CHECK((wrapped.soup.points[wrapped.vertex_of_point[p]] - loose.points[p]).norm() < 2.5 * wrapped.cell);
     }
   }
+}
+
+TEST_CASE("A wrap does not depend on the unit of length, however small or large") {
+  const PolygonSoup loose = loose_faces("capsule", 200, 0.2);
+  WrapOptions options;
+  options.gap = 0.1;
+  const WrappedSoup usual = wrap_soup(loose, options);
+  const double unit = GENERATE(0x1p-900, 0x1p-450, 0x1p450, 0x1p900);
+  const WrappedSoup wrapped = wrap_soup(moved(loose, unit, Vector3::Zero()), options);
+  CHECK(wrapped.cell == unit * usual.cell);
+  REQUIRE(wrapped.soup.corners == usual.soup.corners);
+  for (std::size_t v = 0; v < usual.soup.points.size(); ++v)
+    REQUIRE(wrapped.soup.points[v] == unit * usual.soup.points[v]);
 }
 
 TEST_CASE("Solids farther apart than the gap stay apart, nearer ones become one") {

@@ -82,7 +82,8 @@ struct MendError : MeshError {
 //   A loop is a tube's if the wall within a radius of it runs along an axis near its normal rather than
 //   across,
 // and its centre sees all of it where the notches between the teeth of a ragged end are filled.
-// A closed, manifold surface comes through with its vertices and triangles, apart from crumbs.
+// A closed, manifold surface comes through with its vertices and triangles, apart from crumbs and from pieces
+// without volume.
 // Throws MendError if nothing that encloses a volume is left, saying why and what would help, or if there is
 // a loop and open is kFail; Cancelled. Cost: O(n log n); a loop of n edges takes n³ up to 128 edges, n log n
 // beyond.
