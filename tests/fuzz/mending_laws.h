@@ -146,13 +146,13 @@ inline void check_union(const PolygonSoup& closed, Choices& choices) {
   const SurfaceSnapshot surface = make_snapshot(build_mesh(closed));
   Execution one;
   one.threads = 1;
-  const std::vector<std::vector<Index>> groups = crossing_shells(surface, one);
-  if (groups.empty()) return;
+  const CrossingShells crossing = crossing_shells(surface, one);
+  if (crossing.groups.empty()) return;
   UniteOptions options;
   if (choices.one_in(2)) options.cell = choices.magnitude(0.01, 0.1);
-  const UnitedShells united = unite_shells(surface, groups, options, one);
+  const UnitedShells united = unite_shells(surface, crossing, options, one);
   Index shells = 0;
-  for (const std::vector<Index>& group : groups) shells += static_cast<Index>(group.size());
+  for (const std::vector<Index>& group : crossing.groups) shells += static_cast<Index>(group.size());
   hold(united.shells + united.left_apart <= shells, "shells that cross others are united or stay apart");
   if (united.shells == 0) return hold(united.soup.points.empty(), "where nothing is united there is no soup");
   check_closed(united.soup, "a union");
