@@ -56,14 +56,18 @@ class BodyEnds {
     if (body.limbs == 0 && ends.empty()) add_ends_of_axis(component, solver, ends);
     if (body.limbs != 1 || !ends.empty()) return ends;
     Index others = 0;
+    bool flat = false;
     for (const FoundLimb& limb : limbs_) {
       if (surface_.component[limb.tip.vertex] != component) continue;
-      if (limb.tip.kind == TipKind::kLimb)
-        add_end(component, (body.centre - limb.root).normalized(), ends);
-      else
+      if (limb.tip.kind != TipKind::kLimb) {
         ++others;
+        continue;
+      }
+      const Vector3 away = (body.centre - limb.root).normalized();
+      add_end(component, away, ends);
+      flat = solid_.first_hit(body.centre, away, kFlat * solid_.distance(body.centre)).has_value();
     }
-    if (ends.empty() && others == 0 && !loops) ends.push_back(end_at(component, body.centre));
+    if (ends.empty() && flat && others == 0 && !loops) ends.push_back(end_at(component, body.centre));
     return ends;
   }
 
@@ -76,6 +80,7 @@ class BodyEnds {
   };
 
   static constexpr double kLonger = 1.4;  // length over width
+  static constexpr double kFlat = 1.15;   // of the ball in the middle, which all but touches the surface there
 
   // Of a squat body, where one principal axis differs from the other two, and the way along it is longer than
   // the ball in the middle is wide: in a plate it is not.
