@@ -46,6 +46,7 @@ FAMILIES = [
         for n in (3, 4, 5, 6, 8)
         for where, ratio in (("rim", "1"), ("inset", "0.7"))
     ),
+    *((f"chair {ratio}", "chair", ["--ratio", ratio]) for ratio in ("0.6", "1", "1.6")),
     *(
         ("box " + " ".join(sides), "box", [w for k, side in zip("xyz", sides) for w in (f"--side-{k}", side)])
         for sides in (("10", "5", "2"), ("8", "2", "2"), ("9", "3", "2"), ("4", "2", "1"))

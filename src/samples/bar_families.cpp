@@ -221,6 +221,15 @@ Vector3 place_of_leg(Index i, const SampleOptions& o) {
   return {coordinate(round), coordinate(round - 2), 0};
 }
 
+// What is made with z upward stands on the ground of the pictures, where y is.
+Family standing(Family family) {
+  const auto make = family.make;
+  const auto truth = family.truth;
+  family.make = [make](const SampleOptions& o) { return y_upward(make(o)); };
+  family.truth = [truth](const SampleOptions& o) { return y_upward(truth(o)); };
+  return family;
+}
+
 // Within the top the arcs lead straight to the legs; it is all one joint.
 Family table() {
   const auto build = [](const SampleOptions& o) {
@@ -238,18 +247,39 @@ Family table() {
     }
     return model;
   };
-  Family family = bar_family(
+  return standing(bar_family(
       with_ratio(with_count(with_sections(facts("table", "a table, its top as square or round as its legs", 0,
                                                 4, 4000, 2000),
                                           Section::kSquare),
                             "legs", 4, 3, 8),
                  "distance of the legs from the middle / that of legs at the rim", 1, 0.4, 1),
-      build, [](SampleInfo& i, const SampleOptions& o) { i.leaves = o.count; });
-  const auto make = family.make;
-  const auto truth = family.truth;
-  family.make = [make](const SampleOptions& o) { return y_upward(make(o)); };
-  family.truth = [truth](const SampleOptions& o) { return y_upward(truth(o)); };
-  return family;
+      build, [](SampleInfo& i, const SampleOptions& o) { i.leaves = o.count; }));
+}
+
+// The back is as wide as the seat; it is known where it ends, and its arc is a matter of taste near the seat.
+Family chair() {
+  const auto build = [](const SampleOptions& o) {
+    constexpr double kHalfSeat = 2, kHalfThick = 0.2, kLeg = 0.2, kHeight = 4;
+    constexpr double kEdge = kHalfSeat - kHalfThick;
+    const double top = kHalfThick + 2 * kHalfSeat * o.ratio;
+    BarModel model;
+    model.blocks.push_back({{-kHalfSeat, -kHalfSeat, -kHalfThick}, {kHalfSeat, kHalfSeat, kHalfThick}});
+    model.blocks.push_back({{-kHalfSeat, kEdge - kHalfThick, -kHalfThick}, {kHalfSeat, kHalfSeat, top}});
+    for (const double x : {-1.0, 1.0})
+      for (const double y : {-1.0, 1.0}) {
+        const Vector3 root = (kHalfSeat - kLeg) * Vector3(x, y, 0), foot = root - Vector3(0, 0, kHeight);
+        model.add(root, foot, kLeg, false);
+        model.truth.arc({0, 0, 0}, std::sqrt(2.0) * kHalfSeat, root, kLeg);
+        model.truth.limb(root, kLeg, foot, kLeg);
+      }
+    model.truth.limb({0, 0, 0}, std::sqrt(2.0) * kHalfSeat, {0, kEdge, top},
+                     std::sqrt(kHalfSeat * kHalfThick));
+    return model;
+  };
+  return standing(
+      bar_family(with_ratio(facts("chair", "a chair whose back is as wide as its seat", 0, 5, 3000, 1000),
+                            "height of the back / its width", 1, 0.6, 2),
+                 build));
 }
 
 // The axis along the longest side, from end to end. What is nearly as wide as long has none that is better
@@ -293,7 +323,8 @@ Family ellipsoid() {
 }  // namespace
 
 std::vector<Family> bar_families() {
-  return {hammer(), tee(), cross(), cube_rods(), comb(), ladder(), lattice(), table(), box(), ellipsoid()};
+  return {hammer(),  tee(),   cross(), cube_rods(), comb(),     ladder(),
+          lattice(), table(), chair(), box(),       ellipsoid()};
 }
 
 }  // namespace mspskel::detail

@@ -70,6 +70,7 @@ TEST_CASE("a skeleton has the ends and loops and the course of the one that the 
                                          {"lattice", 2, kSquare},
                                          {"table", 4, kSquare},
                                          {"table", 3, kRound},
+                                         {"chair"},
                                          {"box"},
                                          {"ellipsoid"},
                                          {"airway", 2},

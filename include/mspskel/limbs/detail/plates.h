@@ -166,6 +166,37 @@ class PlateSearch {
     return faces;
   }
 
+  // Adds what lies in gaps of the faces that have just grown, as a rough surface leaves them: what hangs
+  // together outside and is small.
+  void fill_gaps(std::vector<Index>& faces) {
+    constexpr std::size_t kSmall = 20;  // as a share: one in so many faces
+    const std::size_t most = faces.size() / kSmall;
+    const Index plate = growth_;
+    // Whether the flood from a face stays small. It stops where an earlier one came by that did not.
+    const auto is_gap = [&](std::vector<Index>& flood) {
+      grown_[flood.front()] = ++growth_;
+      for (std::size_t k = 0; k < flood.size(); ++k)
+        for (Index h = 3 * flood[k]; h < 3 * flood[k] + 3; ++h) {
+          const Index f = SurfaceSnapshot::face(surface_.twin[h]);
+          if (grown_[f] == plate || grown_[f] == growth_) continue;
+          if (grown_[f] > plate || flood.size() == most) return false;
+          grown_[f] = growth_;
+          flood.push_back(f);
+        }
+      return true;
+    };
+    const std::size_t count = faces.size();
+    for (std::size_t i = 0; i < count; ++i)
+      for (Index h = 3 * faces[i]; h < 3 * faces[i] + 3; ++h) {
+        std::vector<Index> flood{SurfaceSnapshot::face(surface_.twin[h])};
+        if (grown_[flood.front()] >= plate || !is_gap(flood)) continue;
+        for (const Index f : flood) grown_[f] = plate;
+        faces.insert(faces.end(), flood.begin(), flood.end());
+      }
+    ++growth_;
+    for (const Index f : faces) grown_[f] = growth_;
+  }
+
   // The same slab as all of these faces show it: one of a noisy surface may lie aslant.
   Slab mean_slab(const Slab& slab, const std::vector<Index>& faces) const {
     Slab mean;
@@ -206,6 +237,7 @@ class PlateSearch {
       faces = std::move(again);
       if (same) break;
     }
+    fill_gaps(faces);
     return measured(slab, faces);
   }
 
