@@ -272,8 +272,9 @@ Family chair() {
         model.truth.arc({0, 0, 0}, std::sqrt(2.0) * kHalfSeat, root, kLeg);
         model.truth.limb(root, kLeg, foot, kLeg);
       }
-    model.truth.limb({0, 0, 0}, std::sqrt(2.0) * kHalfSeat, {0, kEdge, top},
-                     std::sqrt(kHalfSeat * kHalfThick));
+    const Vector3 root(0, kEdge, 0);
+    model.truth.arc({0, 0, 0}, std::sqrt(2.0) * kHalfSeat, root, kHalfSeat);
+    model.truth.limb(root, kHalfSeat, {0, kEdge, top}, std::sqrt(kHalfSeat * kHalfThick));
     return model;
   };
   return standing(
