@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <climits>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <utility>
@@ -39,6 +40,33 @@ class OpenFile {
 
  private:
   int number_;
+};
+
+// Where nobody reads a pipe any more, writing to it is an error like others and no signal, which would end
+// the program with temporary files behind. In this thread, while the object lives.
+class NoPipeSignal {
+ public:
+  NoPipeSignal() {
+    sigemptyset(&pipe_);
+    sigaddset(&pipe_, SIGPIPE);
+    sigset_t pending;
+    sigpending(&pending);
+    was_pending_ = sigismember(&pending, SIGPIPE) == 1;
+    pthread_sigmask(SIG_BLOCK, &pipe_, &before_);
+  }
+  NoPipeSignal(const NoPipeSignal&) = delete;
+  NoPipeSignal& operator=(const NoPipeSignal&) = delete;
+  ~NoPipeSignal() {
+    const timespec at_once{};
+    if (!was_pending_)
+      while (sigtimedwait(&pipe_, nullptr, &at_once) < 0 && errno == EINTR) {
+      }
+    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  }
+
+ private:
+  sigset_t pipe_, before_;
+  bool was_pending_ = false;
 };
 
 // Until the file takes bytes, which a pipe does when it is read; asks meanwhile, and after a signal.
@@ -83,6 +111,7 @@ void check_path(const std::string& path) {
 }
 
 void write_stream(const std::string& path, std::string_view bytes, const ProgressCallback& progress) {
+  const NoPipeSignal no_signal;
   if (path == "-") {
     // What was printed before comes first.
     int error = std::fflush(stdout) == 0 ? 0 : errno;

@@ -118,6 +118,18 @@ class Ending(ProgramTest):
             self.assertEqual(self.files(), before)
             self.assertEqual((self.folder / "a.skel").read_text(), "older")
 
+    def test_standard_output_that_nobody_reads(self):
+        mesh = self.sample("torus", 500)
+        before = self.files()
+        process = subprocess.Popen([PROGRAM, mesh, "-", "b.swc"], cwd=self.folder, stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE)
+        process.stdout.close()
+        message = process.stderr.read()
+        process.stderr.close()
+        self.assertEqual(process.wait(timeout=60), WRITE, message)
+        self.assertIn(b"standard output", message)
+        self.assertEqual(self.files(), before)
+
     def test_interrupt_while_files_are_written(self):
         """Nobody reads what goes to standard output, so the writing does not end by itself."""
         mesh = self.sample("torus", 20000)

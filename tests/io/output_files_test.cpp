@@ -1,3 +1,5 @@
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <string>
@@ -49,6 +51,23 @@ TEST_CASE("files that are not committed leave nothing, and what was there stays"
   CHECK(folder.read("a.txt") == "before");
   CHECK(fs::is_empty(folder.path("deep")));
   CHECK(folder.count() == 2);
+}
+
+TEST_CASE("a pipe that nobody reads is an error, and leaves nothing of the other files") {
+  const TemporaryFolder folder;
+  folder.write("a.txt", "before");
+  int ends[2];
+  REQUIRE(::pipe(ends) == 0);
+  ::close(ends[0]);
+  {
+    OutputFiles files;
+    write_two(folder, files);
+    files.add("/dev/fd/" + std::to_string(ends[1]), "to nobody");
+    CHECK_THROWS_AS(files.commit(), WriteError);
+  }
+  ::close(ends[1]);
+  CHECK(folder.read("a.txt") == "before");
+  CHECK(folder.count() == 1);
 }
 
 TEST_CASE("writing asks whether to stop until the files have their names") {

@@ -183,6 +183,25 @@ TEST_CASE("Equal teeth of a ring are told alike") {
       }
 }
 
+TEST_CASE(
+    "Fins on a rod have a leaf each and their corners none, and so have boards at the ends of an upright") {
+  for (const int fins : {1, 2}) {
+    VoxelSolid rod;
+    rod.box({0, 0, 0}, {3, 3, 30});
+    rod.box({3, 1, 3}, {9, 2, 13});
+    if (fins == 2) rod.box({-6, 1, 3}, {0, 2, 13});
+    for (const double noise : {0.0, 0.1}) {
+      CAPTURE(fins, noise);
+      const DefaultMesh mesh = jittered(to_mesh(boundary(rod, 2)), 11, noise);
+      CHECK(count_graph(extract_skeleton(mesh).skeleton).leaves == 2 + fins);
+    }
+  }
+  VoxelSolid shelf;
+  shelf.box({0, 0, 0}, {1, 16, 31});
+  for (int i = 0; i < 4; ++i) shelf.box({1, 0, 10 * i}, {10, 16, 10 * i + 1});
+  CHECK(count_graph(extract_skeleton(to_mesh(boundary(shelf, 2))).skeleton).leaves == 4);
+}
+
 TEST_CASE("The arc of a mushroom or a tack ends in the middle of its head") {
   for (const double half_height : {0.3, 0.5})
     for (const double stem : {0.1, 0.2}) {

@@ -27,7 +27,8 @@ struct LimbTip {
   Vector3 target = Vector3::Zero();
   // Its depth: how far the vertex is beyond where the limb is most slender; of a body's end, from the middle.
   LimbMeasures measures;
-  std::vector<Index> cap;  // the end: the outer half of that depth, and at most 1.2 half widths
+  std::vector<Index> cap;    // the end: the outer half of that depth, and at most 1.2 half widths
+  std::vector<Index> plate;  // all of the limb where it is a plate: its corners are no limbs
   // A wing or a leaf, thin as it may be: it is as slender as a finger and does not widen to its end, and the
   // middle of its surface lies in the solid, other than that of a wall which bends round a hollow.
   bool is_lobe = false;

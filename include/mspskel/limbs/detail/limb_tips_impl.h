@@ -188,8 +188,9 @@ inline void add_body_ends(const SurfaceSnapshot& surface, const std::vector<bool
 }
 
 // A plate is one limb or none. What was told by a corner of it goes, be that the corner alone or most of the
-// plate, as it reaches from afar, and so does what is less deep than the plate is thick. Other limbs that end
-// in it stay, and stand for it.
+// plate, as it reaches from afar, and so does what is less deep than the plate is thick. Where it stands out
+// it takes the place of a longer limb, too, of which it is the end. Other limbs that end in it stay, and
+// stand for it.
 inline void judge_as_one(Plate plate, std::vector<FoundLimb>& limbs) {
   constexpr double kSlack = 1.2, kMost = 0.6, kAll = 1.25;  // of the plate's depth
   const std::vector<Index>& part = plate.limb.part;
@@ -200,14 +201,15 @@ inline void judge_as_one(Plate plate, std::vector<FoundLimb>& limbs) {
   };
   const auto is_corner = [&](const FoundLimb& limb) {
     const LimbMeasures& m = limb.tip.measures;
-    const bool most = m.depth > kMost * whole.depth && m.depth < kAll * whole.depth;
+    const bool most = m.depth > kMost * whole.depth && (plate.stands_out || m.depth < kAll * whole.depth);
     return most || m.depth < thickness ||
            is_slab_corner(m.depth, m.depth_over_mouth, m.slenderness, thickness, kSlack);
   };
   const auto goes = [&](const FoundLimb& limb) { return ends_in_plate(limb) && is_corner(limb); };
   limbs.erase(std::remove_if(limbs.begin(), limbs.end(), goes), limbs.end());
-  if (plate.stands_out && std::none_of(limbs.begin(), limbs.end(), ends_in_plate))
-    limbs.push_back(std::move(plate.limb));
+  if (!plate.stands_out || std::any_of(limbs.begin(), limbs.end(), ends_in_plate)) return;
+  plate.limb.tip.plate = part;
+  limbs.push_back(std::move(plate.limb));
 }
 
 }  // namespace detail
@@ -246,9 +248,11 @@ MSPSKEL_INLINE std::vector<LimbTip> on_coarser_surface(std::vector<LimbTip> tips
                                                        const std::vector<Index>& coarse_vertex) {
   for (LimbTip& tip : tips) {
     tip.vertex = coarse_vertex[tip.vertex];
-    for (Index& v : tip.cap) v = coarse_vertex[v];
-    std::sort(tip.cap.begin(), tip.cap.end());
-    tip.cap.erase(std::unique(tip.cap.begin(), tip.cap.end()), tip.cap.end());
+    for (std::vector<Index>* part : {&tip.cap, &tip.plate}) {
+      for (Index& v : *part) v = coarse_vertex[v];
+      std::sort(part->begin(), part->end());
+      part->erase(std::unique(part->begin(), part->end()), part->end());
+    }
   }
   return tips;
 }

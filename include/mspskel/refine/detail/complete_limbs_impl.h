@@ -41,6 +41,7 @@ class LimbCompletion {
     constexpr int kRounds = 8;
     constexpr double kLeft = 0.25;  // of its reach: less is left where another arc stands for the part
     Index added = reach_tips();
+    mark_plates();
     for (int round = 0; round < kRounds; ++round) {
       // All are told before any gets its arc, whose balls may come near the others: equal limbs are told
       // alike.
@@ -78,6 +79,16 @@ class LimbCompletion {
     for (const auto& [depth, i] : bare)
       if (uncovered_.distance(tips_[i].vertex) > uncovered(tips_[i]) && reach_tip(tips_[i])) ++added;
     return added;
+  }
+
+  // The balls of an arc leave most of a plate uncovered, and what ends there is a corner of it.
+  void mark_plates() {
+    in_plate_.assign(surface_.position.size(), false);
+    const std::vector<std::size_t> leaf =
+        leaves_of_tips(graph_, ArcLeaves(graph_, graph_.incidence()), tips_);
+    for (std::size_t i = 0; i < tips_.size(); ++i)
+      if (leaf[i] != kNoLeaf)
+        for (const Index v : tips_[i].plate) in_plate_[v] = true;
   }
 
   // How far the balls stay away from the tip of a limb that has no arc of its own: another one may have led
@@ -165,7 +176,7 @@ class LimbCompletion {
         [&](std::size_t i) { return is_block_corner(parts[i].narrowest.depth_over_mouth()); });
     std::vector<LimbTip> limbs;
     for (std::size_t i = 0; i < parts.size(); ++i)
-      if (limb[i])
+      if (limb[i] && !in_plate_[parts[i].top])
         limbs.push_back(uncovered_.limb(parts[i].top, levels[i].value_or(parts[i].slenderest), solid_));
     std::sort(limbs.begin(), limbs.end(), [](const LimbTip& a, const LimbTip& b) {
       return a.measures.depth != b.measures.depth ? a.measures.depth > b.measures.depth : a.vertex < b.vertex;
@@ -219,6 +230,7 @@ class LimbCompletion {
   const Execution& execution_;
   LimbWays ways_;
   UncoveredSurface uncovered_;
+  std::vector<bool> in_plate_;  // per vertex, of a plate that has its arc
   std::vector<Index> hub_component_;
 };
 

@@ -119,8 +119,8 @@ class LimbWays {
     return way.size() > 2;
   }
 
-  // From the middle below v to the skeleton, where that is nearest on the arc that v belongs to or of all. False
-  // where that lies across a gap: the way to it through the solid is long, and may come by other arcs.
+  // From the middle below v to the skeleton, where that is nearest on the arc that v belongs to or of all.
+  // False where that lies across a gap: the way to it through the solid is long, and may come by other arcs.
   bool find_way_through(Index v, const NearPoints& points, GraphPoint& start, std::vector<Vector3>& way) {
     constexpr double kStraight = 2;  // distances
     start = points.front().second;
