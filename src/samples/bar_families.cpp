@@ -221,15 +221,6 @@ Vector3 place_of_leg(Index i, const SampleOptions& o) {
   return {coordinate(round), coordinate(round - 2), 0};
 }
 
-// What is made with z upward stands on the ground of the pictures, where y is.
-Family standing(Family family) {
-  const auto make = family.make;
-  const auto truth = family.truth;
-  family.make = [make](const SampleOptions& o) { return y_upward(make(o)); };
-  family.truth = [truth](const SampleOptions& o) { return y_upward(truth(o)); };
-  return family;
-}
-
 // Within the top the arcs lead straight to the legs; it is all one joint.
 Family table() {
   const auto build = [](const SampleOptions& o) {

@@ -36,6 +36,9 @@ SampleInfo with_sides(SampleInfo info, const Vector3& sides);
 SampleInfo with_sections(SampleInfo info, Section section);
 SampleInfo with_count(SampleInfo info, const char* of, Index value, Index least, Index most);
 
+// The same with z upward where it is made, y in the model.
+Family standing(const Family& family);
+
 // The tessellation of a surface of that area at the wanted resolution.
 Tessellation tessellation(double area, const SampleOptions& options);
 

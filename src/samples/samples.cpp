@@ -11,6 +11,7 @@
 #include "mspskel/base/near_name.h"
 #include "noise.h"
 #include "sparse.h"
+#include "truth.h"
 
 namespace mspskel {
 
@@ -52,6 +53,11 @@ SampleInfo with_sections(SampleInfo info, Section section) {
   info.has_sections = true;
   info.section = section;
   return info;
+}
+
+Family standing(const Family& family) {
+  return {family.info, [make = family.make](const SampleOptions& o) { return y_upward(make(o)); },
+          family.adapt, [truth = family.truth](const SampleOptions& o) { return y_upward(truth(o)); }};
 }
 
 SampleInfo with_count(SampleInfo info, const char* of, Index value, Index least, Index most) {

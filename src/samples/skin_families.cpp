@@ -27,13 +27,6 @@ Family skin_family(const SampleInfo& info, BuildGraph build,
   return {info, [build](const SampleOptions& o) { return skin_graph(build(o), o.resolution); }, adapt,
           [build](const SampleOptions& o) { return truth_of(build(o)); }};
 }
-
-// The same with z upward in the graph, y in the model.
-Family standing(const Family& family) {
-  return {family.info, [make = family.make](const SampleOptions& o) { return y_upward(make(o)); },
-          family.adapt, [truth = family.truth](const SampleOptions& o) { return y_upward(truth(o)); }};
-}
-
 Family y_tube() {
   const auto build = [](const SampleOptions&) {
     BallGraph graph;
