@@ -13,10 +13,6 @@ namespace {
 Triangle triangle_of(const SurfaceSnapshot& s, Index f) {
   return {s.position[s.origin[3 * f]], s.position[s.origin[3 * f + 1]], s.position[s.origin[3 * f + 2]]};
 }
-Vector3 middle_of(const SurfaceSnapshot& surface, Index f) {
-  const Triangle t = triangle_of(surface, f);
-  return (t.a + t.b + t.c) / 3;
-}
 
 // Of the faces round some vertices the one nearest to x.
 Index nearest_face(const SurfaceSnapshot& surface, const std::array<Index, 3>& vertices, const Vector3& x) {
@@ -84,7 +80,7 @@ MSPSKEL_AVX_CLONES CarriedParts carried_to_input(const SurfaceSnapshot& surface,
                     [&](Index c) { return !mixed[c] && around[c] == around[merged[0]]; }))
       continue;
     carried.near_border[f] = 1;
-    carried.part_of_face[f] = part_of_coarse_face[nearest_face(from, merged, middle_of(surface, f))];
+    carried.part_of_face[f] = part_of_coarse_face[nearest_face(from, merged, surface.face_centroid(f))];
   }
   return carried;
 }

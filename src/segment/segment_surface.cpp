@@ -40,8 +40,7 @@ bool has_all(const std::vector<Index>& part_of_face, Index count) {
 
 std::vector<double> face_areas(const SurfaceSnapshot& surface) {
   std::vector<double> area;
-  for (Index f = 0; f < surface.face_count(); ++f)
-    area.push_back(0.5 * surface.face_normal_times_twice_area(f).norm());
+  for (Index f = 0; f < surface.face_count(); ++f) area.push_back(surface.face_area(f));
   return area;
 }
 

@@ -54,12 +54,6 @@ class BorderSmoother {
     else if (b < a)
       borders_[{b, a}].push_back(surface_.twin[h]);
   }
-  Vector3 middle_of(Index f) const {
-    const Index h = 3 * f;
-    return (surface_.position[surface_.origin[h]] + surface_.position[surface_.origin[h + 1]] +
-            surface_.position[surface_.origin[h + 2]]) /
-           3;
-  }
   // Faces of both parts within `width` of their border, along the surface.
   std::vector<Index> band(Index a, Index b, const std::vector<Index>& border, double width) {
     using Item = std::pair<double, Index>;
@@ -75,11 +69,11 @@ class BorderSmoother {
       if (place_[f] != kNone) continue;
       place_[f] = static_cast<Index>(faces.size());
       faces.push_back(f);
-      const Vector3 middle = middle_of(f);
+      const Vector3 middle = surface_.face_centroid(f);
       for (Index h = 3 * f; h < 3 * f + 3; ++h) {
         const Index g = surface_.twin[h] / 3;
         if (place_[g] != kNone || (part_[g] != a && part_[g] != b)) continue;
-        const double there = distance + (middle - middle_of(g)).norm();
+        const double there = distance + (middle - surface_.face_centroid(g)).norm();
         if (there <= width) queue.push({there, g});
       }
     }

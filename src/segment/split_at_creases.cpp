@@ -47,7 +47,7 @@ class PieceMerger {
       : options_(options), into_(part_of_face.size()), border_(part_of_face.size()) {
     std::iota(into_.begin(), into_.end(), 0);
     count_ = surface.face_count();
-    for (Index f = 0; f < count_; ++f) area_.push_back(0.5 * surface.face_normal_times_twice_area(f).norm());
+    for (Index f = 0; f < count_; ++f) area_.push_back(surface.face_area(f));
     total_ = std::accumulate(area_.begin(), area_.end(), 0.0);
     for (Borders& borders : border_) borders.reserve(3);
     for (Index h = 0; h < surface.halfedge_count(); ++h) {

@@ -59,6 +59,10 @@ struct SurfaceSnapshot {
                   &c = position[origin[3 * f + 2]];
     return (b - a).cross(c - a);
   }
+  double face_area(Index f) const { return 0.5 * face_normal_times_twice_area(f).norm(); }
+  Vector3 face_centroid(Index f) const {
+    return (position[origin[3 * f]] + position[origin[3 * f + 1]] + position[origin[3 * f + 2]]) / 3;
+  }
 };
 
 // Calls visit(w) for the neighbours w of v, in the order of the half-edges round v; none for an isolated

@@ -162,10 +162,6 @@ void LoopBundle::near(const Vector3& p, const Vector3& q, Visit&& visit) {
 
 namespace linking {
 
-inline Vector3 centroid(const SurfaceSnapshot& s, Index f) {
-  return (s.position[s.origin[3 * f]] + s.position[s.origin[3 * f + 1]] + s.position[s.origin[3 * f + 2]]) /
-         3;
-}
 inline Vector3 midpoint(const SurfaceSnapshot& s, Index h) {
   return 0.5 * (s.position[s.origin[h]] + s.position[s.target(h)]);
 }
@@ -175,7 +171,7 @@ inline std::vector<Vector3> polygon(const SurfaceSnapshot& surface, const std::v
   std::vector<Vector3> points;
   for (const Index h : dual_loop) {
     points.push_back(midpoint(surface, h));
-    points.push_back(centroid(surface, SurfaceSnapshot::face(surface.twin[h])));
+    points.push_back(surface.face_centroid(SurfaceSnapshot::face(surface.twin[h])));
   }
   return points;
 }
@@ -256,8 +252,8 @@ class LinkingPeriods {
     step.first = static_cast<Index>(seen.crossings.size());
     const Index f = SurfaceSnapshot::face(h), next = SurfaceSnapshot::face(surface_.twin[h]);
     const Vector3 middle = linking::midpoint(surface_, h);
-    add(seen, f, linking::centroid(surface_, f), middle, step);
-    add(seen, next, middle, linking::centroid(surface_, next), step);
+    add(seen, f, surface_.face_centroid(f), middle, step);
+    add(seen, next, middle, surface_.face_centroid(next), step);
     step.count = static_cast<Index>(seen.crossings.size()) - step.first;
     return step;
   }

@@ -105,14 +105,6 @@ class PlateSearch {
     return edges;
   }
 
-  Vector3 middle(Index f) const {
-    return (surface_.position[surface_.origin[3 * f]] + surface_.position[surface_.origin[3 * f + 1]] +
-            surface_.position[surface_.origin[3 * f + 2]]) /
-           3;
-  }
-
-  double area_of(Index f) const { return 0.5 * surface_.face_normal_times_twice_area(f).norm(); }
-
   // From a point in the solid to its surface; infinity where that is farther than `most`.
   double length_within(const Vector3& x, const Vector3& direction, double most) const {
     const auto hit = solid_.first_hit(x, direction, most);
@@ -122,7 +114,7 @@ class PlateSearch {
   // Of the solid inward from a face; 0 if there is none.
   double chord(Index f) {
     if (chord_[f] < 0) {
-      const auto chord = inward_chord(solid_, middle(f), -normal_[f]);
+      const auto chord = inward_chord(solid_, surface_.face_centroid(f), -normal_[f]);
       chord_[f] = chord ? chord->length : 0.0;
     }
     return chord_[f];
@@ -137,7 +129,7 @@ class PlateSearch {
   // How thick the solid is across a plate, below a face of its side or behind a face of its rim.
   double thickness_at(Index f, const Slab& slab) {
     if (is_side(f, slab.across)) return chord(f);
-    const Vector3 x = middle(f) - 0.5 * slab.thickness * normal_[f];
+    const Vector3 x = surface_.face_centroid(f) - 0.5 * slab.thickness * normal_[f];
     const double most = kAlike * slab.thickness, one = length_within(x, slab.across, most);
     return one < most ? one + length_within(x, -slab.across, most - one) : one;
   }
@@ -148,7 +140,8 @@ class PlateSearch {
     constexpr double kReach = 0.75;  // thicknesses
     const auto belongs = [&](Index f) {
       watch_.step();
-      if (std::abs(slab.across.dot(middle(f) - slab.middle)) > kReach * slab.thickness) return false;
+      if (std::abs(slab.across.dot(surface_.face_centroid(f) - slab.middle)) > kReach * slab.thickness)
+        return false;
       const double here = thickness_at(f, slab);
       return here < kAlike * slab.thickness && slab.thickness < kAlike * here;
     };
@@ -209,7 +202,7 @@ class PlateSearch {
       const Vector3 normal = surface_.face_normal_times_twice_area(f);
       mean.across += side ? normal : Vector3(-normal);
       area[side] += normal.norm();
-      place[side] += normal.norm() * middle(f);
+      place[side] += normal.norm() * surface_.face_centroid(f);
     }
     if (!(area[0] > 0 && area[1] > 0)) return slab;
     mean.across.normalize();
@@ -226,7 +219,7 @@ class PlateSearch {
     Slab slab;
     slab.across = normal_[side];
     slab.thickness = chord(side);
-    slab.middle = middle(side) - 0.5 * slab.thickness * slab.across;
+    slab.middle = surface_.face_centroid(side) - 0.5 * slab.thickness * slab.across;
     if (!(slab.thickness > 0) || slab.thickness > kThin * crease) return std::nullopt;
     std::vector<Index> faces = faces_of(slab, side);
     if (faces.size() < kLeastFaces) return std::nullopt;
@@ -251,7 +244,7 @@ class PlateSearch {
     limb.part = vertices_of(faces);
     limb.root = root->middle;
     double area = 0, bottom = 0, height = 0;
-    for (const Index f : faces) area += area_of(f);
+    for (const Index f : faces) area += surface_.face_area(f);
     for (const Index v : limb.part) {
       bottom = std::min(bottom, height_of(v, *root));
       height = std::max(height, height_of(v, *root));
@@ -278,8 +271,8 @@ class PlateSearch {
     double area = 0, length = 0;
     std::vector<Index> round;
     for (const Index f : faces) {
-      const double own = area_of(f);
-      centre += own * middle(f);
+      const double own = surface_.face_area(f);
+      centre += own * surface_.face_centroid(f);
       area += own;
       for (Index h = 3 * f; h < 3 * f + 3; ++h) {
         if (grown_[SurfaceSnapshot::face(surface_.twin[h])] == growth_) continue;
@@ -336,9 +329,9 @@ class PlateSearch {
     LimbTip& tip = limb.tip;
     double area = 0;
     for (const Index f : faces) {
-      if ((middle(f) - root.middle).dot(root.up) < level.depth - end) continue;
-      const double own = area_of(f);
-      tip.target += own * middle(f);
+      if ((surface_.face_centroid(f) - root.middle).dot(root.up) < level.depth - end) continue;
+      const double own = surface_.face_area(f);
+      tip.target += own * surface_.face_centroid(f);
       area += own;
     }
     tip.target = area > 0 ? Vector3(tip.target / area) : Vector3(root.middle + level.depth * root.up);
