@@ -26,6 +26,7 @@
 #include "mspskel/io/write_segments.h"
 #include "mspskel/io/write_skeleton.h"
 #include "mspskel/render/render.h"
+#include "mspskel/repair/separate_points.h"
 #include "page_scene.h"
 #include "report.h"
 #include "stage_files.h"
@@ -187,8 +188,8 @@ void add_renumbered(const ExtractSettings& settings, CheckedExtraction& made) {
 
 void format_surface(const ExtractSettings& settings, const MeshInput& input, Extraction& extraction) {
   if (!settings.surface.empty())
-    extraction.surface =
-        format_mesh(to_polygon_soup(input.built.mesh), written_mesh_format_of(settings.surface));
+    extraction.surface = format_mesh(separate_points(to_polygon_soup(input.built.mesh)),
+                                     written_mesh_format_of(settings.surface));
 }
 
 // Of a mesh that carries no skeleton the surface is kept in `extraction`, too.

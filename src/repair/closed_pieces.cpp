@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "../mesh/edge_table.h"
 #include "disjoint_sets.h"
+#include "draw_apart.h"
 #include "pieces.h"
-#include "weld_points.h"
 
 namespace mspskel::detail {
 namespace {
@@ -140,61 +139,6 @@ SplitEdges split_double_edges(FaceSet& faces, std::vector<Index>& twin, std::vec
   return added;
 }
 
-struct Surroundings {
-  Vector3 normal = Vector3::Zero();                           // sum over the faces, by area
-  Vector3 outward = Vector3::Zero();                          // sum of the ways to the neighbours
-  double shortest = std::numeric_limits<double>::infinity();  // edge
-};
-
-std::vector<Surroundings> surroundings_of(const FaceSet& faces, const std::vector<Index>& vertices,
-                                          const std::vector<Vector3>& positions) {
-  std::vector<Index> place(positions.size(), kNone);
-  for (std::size_t i = 0; i < vertices.size(); ++i) place[vertices[i]] = static_cast<Index>(i);
-  std::vector<Surroundings> all(vertices.size());
-  for (Index h = 0; h < static_cast<Index>(faces.corners.size()); ++h) {
-    const Index i = place[faces.corners[h]];
-    if (i == kNone) continue;
-    all[i].normal += area_vector(positions, faces, h / 3);
-    for (const Index end : {faces.target(h), faces.origin(FaceSet::prev(h))}) {
-      const Vector3 way = positions[end] - positions[vertices[i]];
-      all[i].outward += way;
-      if (way.norm() > 0) all[i].shortest = std::min(all[i].shortest, way.norm());
-    }
-  }
-  return all;
-}
-
-enum class Way { kIntoMaterial, kIntoVoid, kToNeighbours };
-
-// Moves vertices by a share of their shortest edge; towards their neighbours also where there is no normal.
-void nudge(const FaceSet& faces, const std::vector<Index>& vertices, double share, Way where,
-           std::vector<Vector3>& positions) {
-  const std::vector<Surroundings> all = surroundings_of(faces, vertices, positions);
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    Vector3 way = where == Way::kIntoVoid ? all[i].normal : Vector3(-all[i].normal);
-    if (where == Way::kToNeighbours || way.norm() == 0) way = all[i].outward;
-    if (way.norm() > 0) positions[vertices[i]] += share * all[i].shortest * way.normalized();
-  }
-}
-
-// Draws vertices apart, so that what touched lies beside and no two vertices coincide: first into the
-// material behind each, then, where several lie in the same place still, all but the first towards their
-// neighbours.
-void draw_apart(const FaceSet& faces, const std::vector<Index>& vertices, std::vector<Vector3>& positions) {
-  constexpr double kShare = 1e-3;
-  constexpr int kRounds = 16;
-  if (vertices.empty()) return;
-  nudge(faces, vertices, kShare, Way::kIntoMaterial, positions);
-  for (int round = 1; round <= kRounds; ++round) {
-    const std::vector<Index> first = weld_equal_points(positions);
-    std::vector<Index> coincident;
-    for (Index v = 0; v < static_cast<Index>(first.size()); ++v)
-      if (first[v] != v) coincident.push_back(v);
-    if (coincident.empty()) return;
-    nudge(faces, coincident, round * kShare, Way::kToNeighbours, positions);
-  }
-}
-
 // Vertices of a point, by the polygons that they belong to.
 struct CornerUse {
   Index point, polygon, vertex;
@@ -286,7 +230,7 @@ void make_vertices(const std::vector<Vector3>& points, const FaceSet& all, std::
   nudge(faces, split.concave, kBridge, Way::kIntoVoid, mended.soup.points);
   std::vector<Index> doubled = vertices.doubled();
   doubled.insert(doubled.end(), split.convex.begin(), split.convex.end());
-  draw_apart(faces, doubled, mended.soup.points);
+  if (!doubled.empty()) draw_apart(faces, doubled, mended.soup.points);
   for (Index f = 0; f < faces.count(); ++f)
     mended.soup.add_triangle(faces.corners[3 * f], faces.corners[3 * f + 1], faces.corners[3 * f + 2]);
 }

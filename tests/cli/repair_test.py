@@ -224,6 +224,18 @@ class Repair(ProgramTest):
         self.succeed(mesh, "a.skel", "--write-mesh", "same.off")
         self.assertEqual(read_off(self.folder / mesh), read_off(self.folder / "same.off"))
 
+    def test_written_surface_has_no_two_vertices_in_one_place(self):
+        """Most readers take such for one."""
+        points, faces = read_off(self.folder / self.sample("capsule", 2000))
+        rounded = [tuple(0.1 * round(10 * x) for x in p) for p in points]
+        self.assertLess(len(set(rounded)), len(rounded))
+        write_off(self.folder / "rounded.off", rounded, faces)
+        result = self.run_program("rounded.off", "a.skel", "--write-mesh", "apart.off")
+        self.assertEqual(result.returncode, DONE, result.stderr)
+        written, same_faces = read_off(self.folder / "apart.off")
+        self.assertEqual(len(set(written)), len(written))
+        self.assertEqual(same_faces, faces)
+
 
 if __name__ == "__main__":
     unittest.main()
