@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <optional>
 #include <vector>
 
 #include "mspskel/base/even_directions.h"
@@ -16,14 +15,18 @@
 namespace mspskel {
 namespace detail {
 
-// Half of the limb's width at a vertex; nothing where there is no chord. In the middle of the chord inward, a
-// fan of rays across the chord: in a tube those along its axis are long and most others are about as long as
-// half the chord, in a plate all are long. So the third shortest of eight is the half width of what is thin
-// in two directions.
-inline std::optional<double> limb_half_width(const SurfaceSnapshot& surface,
-                                             const BoundingVolumeHierarchy& solid, Index v) {
+struct LimbWidth {
+  double half = 0.0;   // 0 where there is no chord
+  bool bounds = true;  // whether the solid lies behind the vertex
+};
+
+// Half of the limb's width at a vertex. In the middle of the chord inward, a fan of rays across the chord: in
+// a tube those along its axis are long and most others are about as long as half the chord, in a plate all
+// are long. So the third shortest of eight is the half width of what is thin in two directions.
+inline LimbWidth limb_half_width(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
+                                 Index v) {
   const auto chord = inward_chord(surface, solid, v);
-  if (!chord) return std::nullopt;
+  if (!chord) return {0.0, false};
   const Vector3 inward = -surface.normal[v].normalized();
   // Along an edge, so that the rays turn with the model.
   const Vector3 edge = surface.position[surface.target(surface.vertex_halfedge[v])] - surface.position[v];
@@ -39,7 +42,7 @@ inline std::optional<double> limb_half_width(const SurfaceSnapshot& surface,
     shortest[2] = hit->distance;
     std::sort(shortest.begin(), shortest.end());
   }
-  return std::max(0.5 * chord->length, shortest[2]);
+  return {std::max(0.5 * chord->length, shortest[2]), chord->at_place};
 }
 
 // The second thinnest of a hundred, about: the mean of the logarithms of those round it, since a single one
@@ -60,11 +63,13 @@ struct WidthDemand {
 };
 
 // From places at equal steps of the area. Those below the thinnest of the result, where walls touch, count no
-// more than it. About ten vertices go round a tube. Cost: O(vertices) and 600 fans.
+// more than it. About ten vertices go round a tube. A surface that crosses itself all over bounds no limbs
+// whose widths would count: where the solid does not lie behind more than a tenth of the places, nothing is
+// asked for. Cost: O(vertices) and 600 fans.
 inline WidthDemand demand_of_width(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
                                    const Execution& execution) {
   constexpr int kPlaces = 600;
-  constexpr double kEdge = 0.85;
+  constexpr double kEdge = 0.85, kMostAstray = 0.1;
   const double total = std::accumulate(surface.vertex_area.begin(), surface.vertex_area.end(), 0.0);
   std::vector<Index> places;
   double passed = 0;
@@ -75,14 +80,19 @@ inline WidthDemand demand_of_width(const SurfaceSnapshot& surface, const Boundin
     taken = static_cast<int>(std::floor(passed * kPlaces / total + 0.5));
     places.push_back(v);
   }
-  std::vector<double> widths(places.size());
+  std::vector<LimbWidth> measured(places.size());
   parallel_for(
       static_cast<Index>(places.size()), "coarsening", execution, [] { return 0; },
-      [&](Index i, int) { widths[i] = limb_half_width(surface, solid, places[i]).value_or(0.0); });
-  widths.erase(std::remove_if(widths.begin(), widths.end(), [](double width) { return !(width > 0); }),
-               widths.end());
+      [&](Index i, int) { measured[i] = limb_half_width(surface, solid, places[i]); });
+  std::vector<double> widths;
+  std::size_t astray = 0;
+  for (const LimbWidth& width : measured) {
+    if (!width.bounds) ++astray;
+    if (width.half > 0) widths.push_back(width.half);
+  }
   WidthDemand demand;
-  if (widths.empty()) return demand;
+  if (widths.empty() || static_cast<double>(astray) > kMostAstray * static_cast<double>(places.size()))
+    return demand;
   demand.thinnest = thinnest_of(widths);
   double sum = 0;
   for (const double width : widths) sum += 1 / std::pow(std::max(width, demand.thinnest), 2);

@@ -12,6 +12,7 @@ namespace detail {
 struct InwardChord {
   Vector3 start = Vector3::Zero();
   double length = 0.0;
+  bool at_place = true;  // whether the solid begins at the place itself
 };
 
 // From a place on a surface along the unit vector `inward`. On a coarser surface it may lie outside the
@@ -20,7 +21,8 @@ inline std::optional<InwardChord> inward_chord(const BoundingVolumeHierarchy& so
                                                const Vector3& inward) {
   constexpr double kSkip = 1e-7;  // far less than a chord and far more than rounding
   Vector3 start = place + kSkip * inward;
-  if (!solid.inside(start)) {
+  const bool at_place = solid.inside(start);
+  if (!at_place) {
     const auto entry = solid.first_hit(start, inward);
     if (!entry) return std::nullopt;
     start += (entry->distance + kSkip) * inward;
@@ -28,7 +30,7 @@ inline std::optional<InwardChord> inward_chord(const BoundingVolumeHierarchy& so
   }
   const auto hit = solid.first_hit(start, inward);
   if (!hit || hit->distance <= 0) return std::nullopt;
-  return InwardChord{start, hit->distance};
+  return InwardChord{start, hit->distance, at_place};
 }
 
 // Against the vertex's normal.
