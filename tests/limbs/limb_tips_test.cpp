@@ -14,6 +14,7 @@
 #include "mspskel/extract_skeleton.h"
 #include "mspskel/limbs/detail/part_level.h"
 #include "mspskel/limbs/detail/part_shape.h"
+#include "mspskel/limbs/detail/plates.h"
 #include "mspskel/mesh/coarsen_surface.h"
 #include "mspskel/mesh/inner_distance.h"
 #include "mspskel/mesh/subdivide_surface.h"
@@ -306,6 +307,20 @@ TEST_CASE("The back of a chair is one limb that ends in the middle, and a low ra
       CHECK(backs == (height > 0.5 * kWidth ? 1 : 0));
     }
   }
+}
+
+TEST_CASE("A fin of sixteen triangles is a plate, since no gap of it is as large as its base") {
+  VoxelSolid cells;
+  cells.box({0, 0, 0}, {4, 5, 1});
+  cells.box({1, 2, 1}, {3, 3, 2});
+  PolygonSoup soup = boundary(cells);
+  for (Vector3& p : soup.points) p = p.cwiseProduct(Vector3(1, 0.4, 2));
+  const Solid given(to_mesh(soup));
+  const std::vector<detail::Plate> plates =
+      detail::PlateSearch(given.surface, given.hierarchy, LimbOptions(), {}).run();
+  REQUIRE(plates.size() == 1);
+  CHECK(plates.front().stands_out);
+  CHECK(plates.front().limb.part.size() == 12);
 }
 
 TEST_CASE("A tube's surface lies at half of its depth, and its mouth is its girth; a corner's lies deeper") {

@@ -164,15 +164,17 @@ class PlateSearch {
   void fill_gaps(std::vector<Index>& faces) {
     constexpr std::size_t kSmall = 20;  // as a share: one in so many faces
     const std::size_t most = faces.size() / kSmall;
+    if (most == 0) return;
     const Index plate = growth_;
-    // Whether the flood from a face stays small. It stops where an earlier one came by that did not.
-    const auto is_gap = [&](std::vector<Index>& flood) {
+    std::vector<Index> flood;
+    // Whether a flood from its first face stays small. It stops where an earlier one came by that did not.
+    const auto is_gap = [&] {
       grown_[flood.front()] = ++growth_;
       for (std::size_t k = 0; k < flood.size(); ++k)
         for (Index h = 3 * flood[k]; h < 3 * flood[k] + 3; ++h) {
           const Index f = SurfaceSnapshot::face(surface_.twin[h]);
           if (grown_[f] == plate || grown_[f] == growth_) continue;
-          if (grown_[f] > plate || flood.size() == most) return false;
+          if (grown_[f] > plate || flood.size() >= most) return false;
           grown_[f] = growth_;
           flood.push_back(f);
         }
@@ -181,8 +183,10 @@ class PlateSearch {
     const std::size_t count = faces.size();
     for (std::size_t i = 0; i < count; ++i)
       for (Index h = 3 * faces[i]; h < 3 * faces[i] + 3; ++h) {
-        std::vector<Index> flood{SurfaceSnapshot::face(surface_.twin[h])};
-        if (grown_[flood.front()] >= plate || !is_gap(flood)) continue;
+        const Index across = SurfaceSnapshot::face(surface_.twin[h]);
+        if (grown_[across] >= plate) continue;
+        flood.assign(1, across);
+        if (!is_gap()) continue;
         for (const Index f : flood) grown_[f] = plate;
         faces.insert(faces.end(), flood.begin(), flood.end());
       }
@@ -230,6 +234,7 @@ class PlateSearch {
       faces = std::move(again);
       if (same) break;
     }
+    if (faces.size() < kLeastFaces) return std::nullopt;
     fill_gaps(faces);
     return measured(slab, faces);
   }
