@@ -16,6 +16,7 @@ enum class TipKind {
   kLimb,
   kEar,      // a bump much smaller than what carries it
   kBodyEnd,  // where the axis of what is left without the limbs ends, and no limb does
+  kFlatEnd,  // where a tube was cut off
   kWayEnd,   // of the longest way in a component without limbs
 };
 
@@ -25,7 +26,8 @@ struct LimbTip {
   Vector3 position = Vector3::Zero();  // of that vertex on the surface on which the tip was found
   // The mean of the surface at the very end, or `position` where that is not well inside the solid.
   Vector3 target = Vector3::Zero();
-  // Its depth: how far the vertex is beyond where the limb is most slender; of a body's end, from the middle.
+  // Its depth: how far the vertex is beyond where the limb is most slender; of a body's end, from the middle;
+  // of a flat end its radius.
   LimbMeasures measures;
   std::vector<Index> cap;    // the end: the outer half of that depth, and at most 1.2 half widths
   std::vector<Index> plate;  // all of the limb where it is a plate: its corners are no limbs
@@ -46,8 +48,9 @@ struct LimbTip {
 // do. None lies in the wall of a shell.
 // A plate that stands on the rest along a straight root, as the back of a chair does, is one limb or none by
 // its height on that root, and its corners are none. A body that is longer than wide has tips where it ends
-// and no limb does, and so has one with handles and without limbs along the axis that stands apart. In a
-// component of genus 0 without limbs the ends of its longest way are tips. Cost: a segment query a vertex, a
+// and no limb does, and so has one with handles and without limbs along the axis that stands apart. Where a
+// tube was cut off, its flat cap is an end, however near the next joint. In a component of genus 0 without
+// limbs the ends of its longest way are tips. Cost: a segment query a vertex, a
 // few rays a face of plates, O(vertices log vertices).
 std::vector<LimbTip> find_limb_tips(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
                                     const VertexSlices& slices, const LimbOptions& options,
@@ -58,7 +61,7 @@ std::vector<LimbTip> find_limb_tips(const SurfaceSnapshot& surface, const Boundi
 void drop_tips_in_walls(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
                         const std::vector<bool>& shells, std::vector<LimbTip>& tips);
 
-// Per component of the surface, whether one of the tips is a limb's or an ear's.
+// Per component of the surface, whether one of the tips is a limb's, an ear's or a flat end.
 std::vector<bool> components_with_limbs(const SurfaceSnapshot& surface, const std::vector<LimbTip>& tips);
 
 // The tips as vertices of a coarser surface, whose vertex each vertex merged into.

@@ -9,6 +9,7 @@
 #include "mspskel/base/value_at_rank.h"
 #include "mspskel/limbs/detail/body_ends.h"
 #include "mspskel/limbs/detail/end_target.h"
+#include "mspskel/limbs/detail/flat_ends.h"
 #include "mspskel/limbs/detail/limb_search.h"
 #include "mspskel/limbs/detail/plates.h"
 #include "mspskel/mesh/inner_distance.h"
@@ -19,7 +20,8 @@ MSPSKEL_INLINE std::vector<bool> components_with_limbs(const SurfaceSnapshot& su
                                                        const std::vector<LimbTip>& tips) {
   std::vector<bool> limbed(static_cast<std::size_t>(surface.component_count), false);
   for (const LimbTip& tip : tips)
-    if (tip.kind == TipKind::kLimb || tip.kind == TipKind::kEar) limbed[surface.component[tip.vertex]] = true;
+    if (tip.kind == TipKind::kLimb || tip.kind == TipKind::kEar || tip.kind == TipKind::kFlatEnd)
+      limbed[surface.component[tip.vertex]] = true;
   return limbed;
 }
 
@@ -187,6 +189,44 @@ inline void add_body_ends(const SurfaceSnapshot& surface, const std::vector<bool
   tips.erase(std::remove_if(tips.begin(), tips.end(), is_corner), tips.end());
 }
 
+// Whether the ends of a body lie on one straight line, so that its axis stands for them.
+inline bool are_opposite(const std::vector<const FlatEnd*>& ends) {
+  constexpr double kOpposite = -0.85;
+  return ends.size() == 1 || (ends.size() == 2 && ends[0]->normal.dot(ends[1]->normal) < kOpposite);
+}
+
+// Adds the flat ends that no tip stands for. A body without other tips than the ends of its longest way has
+// an axis if its flat ends are opposite; else they take the place of ways that end in them, at any place near
+// the rim.
+inline void add_flat_ends(const SurfaceSnapshot& surface, const std::vector<FlatEnd>& ends,
+                          std::vector<LimbTip>& tips) {
+  constexpr double kNear = 1.5;  // radii
+  std::vector<std::vector<const FlatEnd*>> of_component(static_cast<std::size_t>(surface.component_count));
+  for (const FlatEnd& end : ends) of_component[surface.component[end.tip.vertex]].push_back(&end);
+  std::vector<bool> has_tip(of_component.size(), false);
+  for (const LimbTip& tip : tips)
+    if (tip.kind != TipKind::kWayEnd) has_tip[surface.component[tip.vertex]] = true;
+  for (std::size_t c = 0; c < of_component.size(); ++c) {
+    if (!has_tip[c] && are_opposite(of_component[c])) continue;
+    for (const FlatEnd* const end : of_component[c]) {
+      const auto ends_there = [&](const LimbTip& tip) {
+        return std::binary_search(end->tip.cap.begin(), end->tip.cap.end(), tip.vertex);
+      };
+      const auto stands_for_it = [&](const LimbTip& tip) {
+        return tip.kind != TipKind::kWayEnd &&
+               (ends_there(tip) || (tip.target - end->tip.target).norm() <= end->tip.measures.depth);
+      };
+      if (std::any_of(tips.begin(), tips.end(), stands_for_it)) continue;
+      const auto way_ends_near = [&](const LimbTip& tip) {
+        return tip.kind == TipKind::kWayEnd &&
+               (surface.position[tip.vertex] - end->tip.target).norm() <= kNear * end->tip.measures.depth;
+      };
+      tips.erase(std::remove_if(tips.begin(), tips.end(), way_ends_near), tips.end());
+      tips.push_back(end->tip);
+    }
+  }
+}
+
 // A plate is one limb or none. What was told by a corner of it goes, be that the corner alone or most of the
 // plate, as it reaches from afar, and so does what is less deep than the plate is thick. Where it stands out
 // it takes the place of a longer limb, too, of which it is the end. Other limbs that end in it stay, and
@@ -240,6 +280,7 @@ MSPSKEL_INLINE std::vector<LimbTip> find_limb_tips(const SurfaceSnapshot& surfac
   drop_tips_in_walls(surface, solid, shells, tips);
   detail::add_body_ends(surface, shells, detail::BodyEnds(surface, solid, limbs), tips);
   detail::add_longest_ways(surface, ways, distance, tips);
+  detail::add_flat_ends(surface, detail::FlatEndSearch(surface, solid, execution.progress).run(), tips);
   for (LimbTip& tip : tips) tip.position = surface.position[tip.vertex];
   return tips;
 }

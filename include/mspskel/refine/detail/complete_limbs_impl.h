@@ -92,16 +92,18 @@ class LimbCompletion {
   }
 
   // How far the balls stay away from the tip of a limb that has no arc of its own: another one may have led
-  // through most of it.
+  // through most of it. The ball in the middle of a tube that was cut off short comes near its end.
   static double uncovered(const LimbTip& tip) {
     const LimbMeasures& m = tip.measures;
+    if (tip.kind == TipKind::kFlatEnd) return 0;
     return tip.kind == TipKind::kBodyEnd ? 0.25 * m.depth : std::min(0.5 * m.depth, m.half_width);
   }
 
-  // The end of a body lies in its middle, so the way to it is straight or none.
+  // The ends of bodies and tubes lie in their middles, so the way to one is straight or none.
   bool reach_tip(const LimbTip& tip) {
     watch_.ask();
-    if (tip.kind != TipKind::kBodyEnd) return try_limb(tip.vertex, tip.measures.half_width);
+    if (tip.kind != TipKind::kBodyEnd && tip.kind != TipKind::kFlatEnd)
+      return try_limb(tip.vertex, tip.measures.half_width);
     const Index component = surface_.component[tip.vertex];
     const auto own = [&](Index hub) { return hub_component_[hub] == component; };
     for (const auto& [distance, point] :

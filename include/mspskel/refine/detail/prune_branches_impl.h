@@ -43,7 +43,13 @@ MSPSKEL_INLINE Index prune_branches(ArcGraph& graph, const std::vector<LimbTip>&
   }
 }
 
-MSPSKEL_INLINE Index remove_spurs(ArcGraph& graph, const BoundingVolumeHierarchy& solid) {
+MSPSKEL_INLINE Index remove_spurs(ArcGraph& graph, const BoundingVolumeHierarchy& solid,
+                                  const std::vector<LimbTip>& tips) {
+  const auto is_flat_end = [&](const Vector3& x) {
+    return std::any_of(tips.begin(), tips.end(), [&](const LimbTip& tip) {
+      return tip.kind == TipKind::kFlatEnd && (tip.target - x).norm() <= 0.5 * tip.measures.depth;
+    });
+  };
   Index removed = 0;
   while (true) {
     dissolve_through_hubs(graph);
@@ -55,7 +61,9 @@ MSPSKEL_INLINE Index remove_spurs(ArcGraph& graph, const BoundingVolumeHierarchy
         const Index tip = graph.arcs[a].hub[end], hub = graph.arcs[a].hub[1 - end];
         if (editor.at(tip).size() != 1 || editor.at(hub).size() < 3) continue;
         const Vector3& centre = graph.hub_position[hub];
-        if ((graph.hub_position[tip] - centre).norm() >= solid.distance(centre)) continue;
+        if ((graph.hub_position[tip] - centre).norm() >= solid.distance(centre) ||
+            is_flat_end(graph.hub_position[tip]))
+          continue;
         spur = a;
         joint = hub;
       }

@@ -184,7 +184,7 @@ class ArcRefinement {
     keep_type("extension of ends");
   }
   Index drop_spurs() {
-    const Index spurs = remove_spurs(graph_, solid_);
+    const Index spurs = remove_spurs(graph_, solid_, tips_);
     counts_.pruned += spurs;
     keep_type("removal of spurs");
     return spurs;
