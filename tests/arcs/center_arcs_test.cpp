@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "mspskel/arcs/detail/arc_points.h"
+#include "mspskel/arcs/detail/waver.h"
 #include "mspskel/io/write_mesh.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/mesh/build_mesh.h"
@@ -155,6 +156,46 @@ TEST_CASE("The arc of a thin limb becomes straight where it runs through the thi
   double farthest = 0;
   for (const Vector3& p : graph.arcs[2].points) farthest = std::max(farthest, (p - start).cross(axis).norm());
   CHECK(farthest < 0.015 * half_width);
+}
+
+TEST_CASE("A line wavers as much as it turns back, and a corner and an even bend do not") {
+  std::vector<Vector3> corner, bend, wave;
+  for (int i = -30; i <= 30; ++i) {
+    const double t = 0.1 * i;
+    corner.push_back(t < 0 ? Vector3(t, 0, 0) : Vector3(0, t, 0));
+    bend.push_back({std::cos(t / 3), std::sin(t / 3), 0});
+    wave.push_back({t, 0.5 * std::sin(2 * t), 0});
+  }
+  CHECK(detail::waver(corner, 30, 12) == Approx(0).margin(1e-9));
+  CHECK(detail::waver(bend, 30, 30) == Approx(0).margin(1e-9));
+  CHECK(detail::waver(wave, 30, 30) > 2);
+  CHECK(detail::waver(wave, 38, 6) < 0.1);  // one bend of it
+}
+
+TEST_CASE("The bumps of a thick body do not make an arc turn to and fro in it") {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    Random random(seed);
+    BallGraph body;
+    body.blend = 0.1;
+    body.nodes = {{Vector3(0, 0, 0), 1.0}, {Vector3(2.2, 0.3, 0.2), 0.15}, {Vector3(-2.2, 0.1, -0.2), 0.15}};
+    body.edges = {{0, 1}, {0, 2}};
+    for (int bump = 0; bump < 16; ++bump) {
+      body.edges.emplace_back(0, static_cast<Index>(body.nodes.size()));
+      body.nodes.push_back({0.9 * random.in_ball().normalized(), 0.42});
+    }
+    const Solid solid(to_mesh(skin_graph(body, 3000)));
+    ArcGraph graph;
+    graph.add_hub(solid.at(2.2, 0.3, 0.2));
+    graph.add_hub(solid.at(-2.2, 0.1, -0.2));
+    add_arc(graph, 0, 1, {solid.at(0.6, 0.25, 0.1), solid.at(-0.6, -0.2, 0.2)});
+    CenteringOptions options;
+    options.rounds = 30;
+    center_arcs(graph, solid.hierarchy, options);
+    const std::vector<Vector3>& line = graph.arcs[0].points;
+    double waver = 0;
+    for (std::size_t i = 20; i + 20 < line.size(); i += 20) waver += detail::waver(line, i, 20);
+    CHECK(waver < 0.65);
+  }
 }
 
 TEST_CASE("An arc follows near walls rather than far ones, however flat the solid is") {

@@ -64,14 +64,15 @@ VisibleSection visible_section(const BoundingVolumeHierarchy& solid, const Vecto
 // neighbours|² over all points, with c the section's centre, W = w · roundness^1.5 · narrowness along the
 // section's wide axis and w across it, w = 1 / (1 + (|c − x| / 0.7 R)⁴) and
 // μ = smoothness · (distance to the surface / own step)² · (0.008 / options.step)². So an arc keeps to the
-// middle between near walls and is straight between far ones. Near a joint, within two radii of its ball,
-// sections are those of what the arc leaves, so W falls to 0 there with the distance. Leaf ends stay in their
-// section, joints are nearly free, and hubs that are `held` stay where they are. Steps that would cut a
-// corner through the surface keep the corner between them. A point moves only as far as its edges stay off
-// the surface, so what is inside stays inside, and as far as no edge sweeps over a handle, so cycles keep
-// their classes. A round that would make the arcs half as long again as they began, and ten steps, is the
-// end: where there is hardly any thickness, neighbouring points do not hold each other, and arcs grow with
-// every round. Cost: O(points · rays · log faces) a round. Throws UsageError, Cancelled.
+// middle between near walls and is straight between far ones. Within a ball it does not turn to and fro: μ is
+// 1 + 100 waver² times as large (detail/waver.h). Near a joint, within two radii of its ball, sections are
+// those of what the arc leaves, so W falls to 0 there with the distance. Leaf ends stay in their section,
+// joints are nearly free, and hubs that are `held` stay where they are. Steps that would cut a corner through
+// the surface keep the corner between them. A point moves only as far as its edges stay off the surface, so
+// what is inside stays inside, and as far as no edge sweeps over a handle, so cycles keep their classes. A
+// round that would make the arcs half as long again as they began, and ten steps, is the end: where there is
+// hardly any thickness, neighbouring points do not hold each other, and arcs grow with every round. Cost:
+// O(points · rays · log faces) a round. Throws UsageError, Cancelled.
 void center_arcs(ArcGraph& graph, const BoundingVolumeHierarchy& solid, const CenteringOptions& options,
                  const Execution& execution = {}, const CrossingLabels& crossings = {},
                  const std::vector<Index>& held = {});

@@ -7,6 +7,7 @@
 
 #include "mspskel/arcs/detail/arc_points.h"
 #include "mspskel/arcs/detail/own_step.h"
+#include "mspskel/arcs/detail/waver.h"
 #include "mspskel/base/even_directions.h"
 #include "mspskel/base/linkage.h"
 #include "mspskel/base/sparse_solvers.h"
@@ -181,6 +182,30 @@ inline void loosen_near_joints(const ArcPoints& points, const BoundingVolumeHier
   }
 }
 
+// In its own ball an arc bends one way or not at all. What turns to and fro there follows sections that its
+// own direction tilts, so it is held the stiffer, the more it wavers.
+inline void stiffen_wavers(const ArcPoints& points, const std::vector<double>& thickness,
+                           std::vector<Pull>& pulls) {
+  constexpr double kGain = 100;   // of a waver of one radian, and as its square
+  constexpr double kSpan = 1.25;  // radii of the ball to each side
+  constexpr double kLeast = 6;    // points; thinner limbs are followed
+  std::vector<Vector3> line;
+  for (const auto& chain : points.chains) {
+    line.clear();
+    double length = 0;
+    for (const Index i : chain) {
+      if (!line.empty()) length += (points.x[i] - line.back()).norm();
+      line.push_back(points.x[i]);
+    }
+    if (!(length > 0)) continue;
+    const double spacing = length / static_cast<double>(line.size() - 1);
+    for (std::size_t i = 1; i + 1 < line.size(); ++i) {
+      const double reach = kSpan * thickness[chain[i]] / spacing;
+      if (reach >= kLeast) pulls[chain[i]].stiffness *= 1 + kGain * std::pow(waver(line, i, reach), 2);
+    }
+  }
+}
+
 // How many more edges there are than points: so many cycles that pieces have beyond one each.
 inline Index surplus_of_edges(const ArcPoints& points) {
   Index surplus = 0;
@@ -324,6 +349,7 @@ MSPSKEL_INLINE void center_arcs(ArcGraph& graph, const BoundingVolumeHierarchy& 
     for (Index i = 0; i < points.count(); ++i)
       if (left_out[i]) pulls[i] = detail::pull_between(points, pulls, i);
     detail::loosen_near_joints(points, solid, execution, pulls);
+    detail::stiffen_wavers(points, thickness, pulls);
     for (const Index hub : held)
       if (points.kind[hub] != detail::ArcPoints::Kind::kDead)
         pulls[hub] = detail::even_pull(points.x[hub], detail::kHeldWeight);
