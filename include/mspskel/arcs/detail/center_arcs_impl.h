@@ -64,6 +64,17 @@ inline std::vector<double> thickness_at(const ArcPoints& points, const BoundingV
   return thickness;
 }
 
+// Makes `line` the points of a chain. Returns their mean distance.
+inline double lay_out(const ArcPoints& points, const std::vector<Index>& chain, std::vector<Vector3>& line) {
+  line.clear();
+  double length = 0;
+  for (const Index i : chain) {
+    if (!line.empty()) length += (points.x[i] - line.back()).norm();
+    line.push_back(points.x[i]);
+  }
+  return length / static_cast<double>(std::max<std::size_t>(line.size(), 2) - 1);
+}
+
 // Unit tangents of inner points and leaf ends from a smoothed copy of the chains; zero elsewhere.
 // `thickness`: per point the distance to the surface.
 inline std::vector<Vector3> smooth_tangents(const ArcPoints& points, const std::vector<double>& thickness,
@@ -71,13 +82,7 @@ inline std::vector<Vector3> smooth_tangents(const ArcPoints& points, const std::
   std::vector<Vector3> tangent(points.x.size(), Vector3::Zero());
   std::vector<Vector3> line, copy;
   for (const auto& chain : points.chains) {
-    line.clear();
-    double length = 0;
-    for (const Index i : chain) {
-      if (!line.empty()) length += (points.x[i] - line.back()).norm();
-      line.push_back(points.x[i]);
-    }
-    const double spacing = length / static_cast<double>(std::max<std::size_t>(line.size(), 2) - 1);
+    const double spacing = lay_out(points, chain, line);
     for (int round = 0; round < smoothing; ++round) {
       copy = line;
       for (std::size_t i = 1; i + 1 < line.size(); ++i)
@@ -191,14 +196,8 @@ inline void stiffen_wavers(const ArcPoints& points, const std::vector<double>& t
   constexpr double kLeast = 6;    // points; thinner limbs are followed
   std::vector<Vector3> line;
   for (const auto& chain : points.chains) {
-    line.clear();
-    double length = 0;
-    for (const Index i : chain) {
-      if (!line.empty()) length += (points.x[i] - line.back()).norm();
-      line.push_back(points.x[i]);
-    }
-    if (!(length > 0)) continue;
-    const double spacing = length / static_cast<double>(line.size() - 1);
+    const double spacing = lay_out(points, chain, line);
+    if (!(spacing > 0)) continue;
     for (std::size_t i = 1; i + 1 < line.size(); ++i) {
       const double reach = kSpan * thickness[chain[i]] / spacing;
       if (reach >= kLeast) pulls[chain[i]].stiffness *= 1 + kGain * std::pow(waver(line, i, reach), 2);
