@@ -166,9 +166,9 @@ class FlatEndSearch {
     return second * area - first * first <= std::pow(kUneven * radius * area, 2);
   }
 
-  // Whether a tube ends in the cap: it is as deep as wide by half there, and the wall within a radius of the
-  // rim runs along the normal; by the mean square of the cosine, as a cone does whose side is 30 degrees from
-  // its axis.
+  // Whether a tube ends in the cap: it is as deep as wide by half there, and the wall within half a radius of
+  // the rim runs along the normal; by the mean square of the cosine, as a cone does whose side is 30 degrees
+  // from its axis.
   bool is_closed_by(const std::vector<Index>& faces, const Rim& rim, const Vector3& normal, double radius) {
     constexpr double kMostAcross = 0.25;
     const Vector3 start = rim.centre - kAhead * radius * normal;
@@ -176,7 +176,7 @@ class FlatEndSearch {
     double reach = 0;
     for (const Index h : rim.halfedges)
       reach = std::max(reach, (surface_.position[surface_.origin[h]] - rim.centre).norm());
-    reach += radius;
+    reach += 0.5 * radius;
     const auto is_near = [&](Index f) { return (surface_.face_centroid(f) - rim.centre).norm() <= reach; };
     const std::vector<Index> all = connected(faces, is_near);
     double area = 0, across = 0;
