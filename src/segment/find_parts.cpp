@@ -4,6 +4,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <limits>
+#include <optional>
 
 #include "cross_sections.h"
 #include "mspskel/base/error.h"
@@ -306,7 +307,7 @@ class PartFinder {
   }
   void cut_stretch(Cut& best, const std::vector<Index>& chain, double widest, double whole) {
     const std::size_t edges = chain.size() - 1;
-    const ChainContacts touched = contacts_of(chain);
+    std::optional<ChainContacts> touched;  // few chains have a stretch whose sections would do
     std::vector<double> radius(edges), least(edges), contrast(edges, -1.0);
     for (std::size_t i = 0; i < edges; ++i) {
       radius[i] = 0.5 * (size_[chain[i]] + size_[chain[i + 1]]);
@@ -319,13 +320,17 @@ class PartFinder {
     for (std::size_t i = 0; i + 1 < edges; ++i) {
       if (least[i] > options_.contrast) continue;
       double area = 0, border = 0;
+      std::size_t measured = i;  // the border is that of the nodes after i up to this one
       for (std::size_t j = i + 1; j < edges; ++j) {
         area += skeleton_.nodes[chain[j]].area;
-        border += touched.all[j];
-        for (const auto& [place, length] : touched.before[j])
-          if (place > i) border -= 2 * length;
         const double section = std::max(radius[i], radius[j]);
         if (!may_be_cleaner(best, section, std::max(least[i], least[j]), area, whole)) continue;
+        if (!touched) touched = contacts_of(chain);
+        while (measured < j) {
+          border += touched->all[++measured];
+          for (const auto& [place, length] : touched->before[measured])
+            if (place > i) border -= 2 * length;
+        }
         // Half of the border is that of either cut.
         const double wider = soft_maximum(section, kStraightened * border / (4 * kPi));
         const double longer = wider / section;
