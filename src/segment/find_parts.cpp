@@ -4,6 +4,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <limits>
+#include <optional>
 
 #include "cross_sections.h"
 #include "mspskel/base/error.h"
@@ -54,7 +55,8 @@ class PartFinder {
         size_(detail::cross_sections(skeleton, next_)),
         part_(skeleton.nodes.size(), kNone),
         distance_(skeleton.nodes.size(), kInfinite),
-        side_(skeleton.nodes.size(), 0) {
+        side_(skeleton.nodes.size(), 0),
+        place_(skeleton.nodes.size(), 0) {
     for (const SkeletonNode& node : skeleton.nodes) total_ += node.area;
     for (const auto& neighbours : next_) taper_.emplace_back(neighbours.size(), -1.0);
   }
@@ -282,8 +284,30 @@ class PartFinder {
     }
     return chains;
   }
+  // What the inner nodes of a chain touch: nodes of the part that come before them in the chain, and all.
+  struct ChainContacts {
+    std::vector<std::vector<std::pair<std::size_t, double>>> before;  // place in the chain, length
+    std::vector<double> all;
+  };
+  ChainContacts contacts_of(const std::vector<Index>& chain) {
+    ChainContacts touched{std::vector<std::vector<std::pair<std::size_t, double>>>(chain.size()),
+                          std::vector<double>(chain.size(), 0.0)};
+    for (std::size_t i = 1; i + 1 < chain.size(); ++i) place_[chain[i]] = i;
+    const Index part = part_[chain[0]];
+    for (const NodeContact& contact : contacts_) {
+      const auto [a, b] = contact.nodes;
+      if (part_[a] != part || part_[b] != part) continue;
+      const std::size_t first = std::min(place_[a], place_[b]), last = std::max(place_[a], place_[b]);
+      touched.all[first] += contact.length;
+      touched.all[last] += contact.length;
+      if (first > 0) touched.before[last].push_back({first, contact.length});
+    }
+    for (const Index n : chain) place_[n] = 0;
+    return touched;
+  }
   void cut_stretch(Cut& best, const std::vector<Index>& chain, double widest, double whole) {
     const std::size_t edges = chain.size() - 1;
+    std::optional<ChainContacts> touched;  // few chains have a stretch whose sections would do
     std::vector<double> radius(edges), least(edges), contrast(edges, -1.0);
     for (std::size_t i = 0; i < edges; ++i) {
       radius[i] = 0.5 * (size_[chain[i]] + size_[chain[i + 1]]);
@@ -295,12 +319,23 @@ class PartFinder {
     };
     for (std::size_t i = 0; i + 1 < edges; ++i) {
       if (least[i] > options_.contrast) continue;
-      double area = 0;
+      double area = 0, border = 0;
+      std::size_t measured = i;  // the border is that of the nodes after i up to this one
       for (std::size_t j = i + 1; j < edges; ++j) {
         area += skeleton_.nodes[chain[j]].area;
-        const double wider = std::max(radius[i], radius[j]);
-        if (!may_be_cleaner(best, wider, std::max(least[i], least[j]), area, whole)) continue;
-        consider(best, wider, std::max(contrast_at(i), contrast_at(j)), area, whole,
+        const double section = std::max(radius[i], radius[j]);
+        if (!may_be_cleaner(best, section, std::max(least[i], least[j]), area, whole)) continue;
+        if (!touched) touched = contacts_of(chain);
+        while (measured < j) {
+          border += touched->all[++measured];
+          for (const auto& [place, length] : touched->before[measured])
+            if (place > i) border -= 2 * length;
+        }
+        // Half of the border is that of either cut.
+        const double wider = soft_maximum(section, kStraightened * border / (4 * kPi));
+        const double longer = wider / section;
+        if (!may_be_cleaner(best, wider, longer * std::max(least[i], least[j]), area, whole)) continue;
+        consider(best, wider, longer * std::max(contrast_at(i), contrast_at(j)), area, whole,
                  {Edge{chain[i], chain[i + 1]}, Edge{chain[j], chain[j + 1]}});
       }
     }
@@ -317,6 +352,7 @@ class PartFinder {
       taper_;                     // per node and neighbour with a larger number; negative: not known
   std::vector<double> distance_;  // of sides_of, and infinite between its calls
   std::vector<char> side_;
+  std::vector<std::size_t> place_;  // of contacts_of: in the chain, 0 elsewhere
   std::vector<Index> reached_;
   std::array<std::vector<CrossSection>, 2> sides_;
   std::vector<Index> root_;  // per part: one of its nodes

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstring>
 #include <functional>
+#include <limits>
 #include <numeric>
 #include <queue>
 #include <tuple>
@@ -17,6 +18,8 @@ namespace {
 // A border costs at most so many times its length, or it has no creases: anywhere round a long tube a border
 // is short for its area.
 constexpr double kMostBare = 0.5;
+// Borders that cost less count as this, for the sake of the logarithm.
+constexpr double kFree = 1e-9;
 
 // Of the border between two pieces.
 struct Border {
@@ -39,15 +42,20 @@ Border add(Borders& borders, Index piece, const Border& border) {
   return at->second;
 }
 
-// Pieces of parts that become one, pair by pair. A piece's number is that of one of its faces.
+// Pieces of parts that become one, pair by pair, until each part is one: a tree of merges. Which of them
+// stand is decided on the whole tree. A piece's number is that of one of its faces.
 class PieceMerger {
  public:
   PieceMerger(const SurfaceSnapshot& surface, const std::vector<double>& costs,
               const std::vector<Index>& part_of_face, const CreasePartOptions& options)
-      : options_(options), into_(part_of_face.size()), border_(part_of_face.size()) {
+      : options_(options),
+        into_(part_of_face.size()),
+        border_(part_of_face.size()),
+        gain_(part_of_face.size(), 0.0) {
     std::iota(into_.begin(), into_.end(), 0);
-    count_ = surface.face_count();
-    for (Index f = 0; f < count_; ++f) area_.push_back(surface.face_area(f));
+    const Index count = surface.face_count();
+    merges_.reserve(into_.size());
+    for (Index f = 0; f < count; ++f) area_.push_back(surface.face_area(f));
     total_ = std::accumulate(area_.begin(), area_.end(), 0.0);
     for (Borders& borders : border_) borders.reserve(3);
     for (Index h = 0; h < surface.halfedge_count(); ++h) {
@@ -56,39 +64,38 @@ class PieceMerger {
         add(border_[f], g, {costs[h], surface.edge_length(h)});
     }
     std::vector<Pair> pairs;
-    for (Index f = 0; f < count_; ++f)
+    for (Index f = 0; f < count; ++f)
       for (const auto& [g, border] : border_[f])
         if (f < g) pairs.push_back({key_of(worth(f, g, border)), f, g});
     queue_ = std::priority_queue<Pair>(std::less<Pair>(), std::move(pairs));
   }
 
   void run() {
-    while (!queue_.empty() && count_ > options_.least) {
+    while (!queue_.empty()) {
       const Pair pair = queue_.top();
       queue_.pop();
       if (into_[pair.a] != pair.a || into_[pair.b] != pair.b) continue;
-      const auto found = place_of(border_[pair.a], pair.b);
-      const Worth found_worth = worth(pair.a, pair.b, found->second);
-      if (key_of(found_worth) != pair.key) continue;
-      const bool clean = found_worth.first == 0 && found_worth.second <= options_.cost;
-      if (clean && (options_.most == 0 || count_ <= options_.most)) return;
-      merge(pair.a, pair.b);
+      const Worth found = worth(pair.a, pair.b, place_of(border_[pair.a], pair.b)->second);
+      if (key_of(found) == pair.key) merge(pair.a, pair.b, found);
     }
   }
   std::vector<Index> numbered() {
-    std::vector<Index> number(into_.size(), kNone), part(into_.size());
+    choose();
+    std::vector<Index> part(into_.size(), kNone);
     Index next = 0;
-    for (std::size_t f = 0; f < part.size(); ++f) {
-      Index piece = static_cast<Index>(f);
-      while (into_[piece] != piece) piece = into_[piece] = into_[into_[piece]];
-      if (number[piece] == kNone) number[piece] = next++;
-      part[f] = number[piece];
-    }
-    return part;
+    for (std::size_t f = 0; f < part.size(); ++f)
+      if (into_[f] == static_cast<Index>(f)) part[f] = next++;
+    for (auto merged = merges_.rbegin(); merged != merges_.rend(); ++merged)
+      part[merged->gone] = merged->apart ? next++ : part[merged->kept];
+    return numbered_by_face(part, next);
   }
 
  private:
   using Worth = std::pair<int, double>;  // whether one is too small; what the border costs
+  struct Merge {
+    Index kept, gone;
+    bool apart;  // what both are made of is parted rather than one
+  };
   struct Pair {
     std::uint64_t key;  // of its worth
     Index a, b;         // a < b
@@ -117,14 +124,51 @@ class PieceMerger {
   void push(Index a, Index b, const Border& border) {
     queue_.push({key_of(worth(a, b, border)), std::min(a, b), std::max(a, b)});
   }
-  void merge(Index a, Index b) {
+  // Keeping both sides of the border apart is worth log(limit / cost), and so are the borders within the
+  // sides, which stand only if this one does: a ring that is a little too dear does not undo what lies
+  // within, and one that is just cheap enough does not hold up a patchwork of dear ones. A side too small
+  // cannot stand.
+  void record(Index kept, Index gone, const Worth& border) {
+    const double gain = border.first != 0 ? -std::numeric_limits<double>::infinity()
+                                          : std::log(options_.cost / std::max(border.second, kFree));
+    const double sum = gain + gain_[kept] + gain_[gone];
+    gain_[kept] = std::max(0.0, sum);
+    merges_.push_back({kept, gone, sum > 0});
+  }
+  // From the last merge down: below one that parts nothing all are one. Where that gives too many parts, or
+  // too few, those stand that became one last.
+  void choose() {
+    const Index whole = static_cast<Index>(into_.size() - merges_.size());
+    Index count = whole;
+    std::vector<char> open(into_.size(), 1);
+    for (auto merged = merges_.rbegin(); merged != merges_.rend(); ++merged) {
+      merged->apart = merged->apart && open[merged->kept];
+      open[merged->kept] = open[merged->gone] = merged->apart ? 1 : 0;
+      if (merged->apart) ++count;
+    }
+    Index wanted = std::max(count, options_.least);
+    if (options_.most > 0) wanted = std::min(wanted, std::max(options_.most, options_.least));
+    if (wanted == count) return;
+    const auto last = static_cast<std::size_t>(std::max(0, wanted - whole));
+    for (std::size_t i = 0; i < merges_.size(); ++i) merges_[i].apart = i + last >= merges_.size();
+  }
+  static std::vector<Index> numbered_by_face(const std::vector<Index>& part, Index count) {
+    std::vector<Index> number(count, kNone), numbered(part.size());
+    Index next = 0;
+    for (std::size_t f = 0; f < part.size(); ++f) {
+      if (number[part[f]] == kNone) number[part[f]] = next++;
+      numbered[f] = number[part[f]];
+    }
+    return numbered;
+  }
+  void merge(Index a, Index b, const Worth& found) {
     if (border_[a].size() < border_[b].size()) std::swap(a, b);
+    record(a, b, found);
     const double before = area_[a];
     erase(border_[a], b);
     erase(border_[b], a);
     into_[b] = a;
     area_[a] += area_[b];
-    --count_;
     // The worth of a border is that of the smaller piece: of those that b did not touch only it can change.
     for (const auto& [c, border] : border_[a])
       if (area_[c] > before) push(a, c, border);
@@ -141,7 +185,8 @@ class PieceMerger {
   std::vector<Borders> border_;
   std::vector<double> area_;
   std::priority_queue<Pair> queue_;
-  Index count_ = 0;
+  std::vector<double> gain_;  // per piece: of the borders within it that stand if its own do
+  std::vector<Merge> merges_;
   double total_ = 0;
 };
 

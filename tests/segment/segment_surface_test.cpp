@@ -219,6 +219,48 @@ TEST_CASE("parts within a part are as few or as many as wanted") {
   }
 }
 
+namespace {
+
+// A sphere whose cap is two halves, by the costs of its edges: the two halves' border and the cap's rim cost
+// so many times the square root of the smaller side's area. Other edges cost their length. Returns how many
+// parts creases make of it.
+std::size_t parts_of_halved_cap(double between_halves, double rim) {
+  const SurfaceSnapshot surface = make_snapshot(test::to_mesh(make_sample("sphere")));
+  double top = 0;
+  for (const Vector3& x : surface.position) top = std::max(top, x.z());
+  const auto region = [&](Index f) {
+    const Vector3 x = surface.face_centroid(f);
+    return x.z() < 0.6 * top ? 0 : x.x() > 0 ? 1 : 2;
+  };
+  std::array<double, 3> area{}, length{};  // length of the border between halves, and of the rim
+  const auto kind = [&](Index h) {
+    const int a = region(h / 3), b = region(surface.twin[h] / 3);
+    return a == b ? 0 : a > 0 && b > 0 ? 1 : 2;
+  };
+  for (Index f = 0; f < surface.face_count(); ++f) area[region(f)] += surface.face_area(f);
+  for (Index h = 0; h < surface.halfedge_count(); ++h) length[kind(h)] += 0.5 * surface.edge_length(h);
+  const std::array<double, 3> share{1.0, between_halves * std::sqrt(std::min(area[1], area[2])) / length[1],
+                                    rim * std::sqrt(area[1] + area[2]) / length[2]};
+  std::vector<double> costs(surface.halfedge_count());
+  for (Index h = 0; h < surface.halfedge_count(); ++h) costs[h] = share[kind(h)] * surface.edge_length(h);
+  std::vector<Index> part(surface.face_count(), 0);
+  split_at_creases(surface, costs, part);
+  return std::set<Index>(part.begin(), part.end()).size();
+}
+
+}  // namespace
+
+TEST_CASE("which rings of creases stand is decided for all together") {
+  CHECK(parts_of_halved_cap(0.3, 0.4) == 3);
+  CHECK(parts_of_halved_cap(0.9, 0.4) == 2);
+  CHECK(parts_of_halved_cap(0.9, 0.8) == 1);
+  // Each half's share of the rim is cheap for the half, but the whole rim is dear for the cap: a patchwork
+  // does not stand because no pair in it is dear.
+  CHECK(parts_of_halved_cap(0.49, 0.65) == 1);
+  // What is clear within the cap stands, and with it a rim that is little too dear.
+  CHECK(parts_of_halved_cap(0.42, 0.52) == 3);
+}
+
 TEST_CASE("stray pieces of a part join what surrounds them") {
   const SurfaceSnapshot surface = make_snapshot(test::to_mesh(make_sample("capsule")));
   std::vector<Index> part(surface.face_count());
@@ -425,4 +467,32 @@ TEST_CASE("a limb is cut off where it leaves the body") {
   REQUIRE(!cut.empty());
   CHECK(cut.front() <= 26);
   CHECK(cut.back() == 44);
+}
+
+TEST_CASE("a stretch of a cycle is cut out where its cuts have short borders") {
+  // A ring of a thick and a thin half, as a cup and its handle. In the thick half two sections are as thin as
+  // the handle's, as those are that only go round a cup's wall: on the surface no short border is there.
+  CurveSkeleton skeleton;
+  std::vector<NodeContact> contacts;
+  const Index count = 60;
+  for (Index n = 0; n < count; ++n) {
+    const bool handle = n >= 40;
+    const double angle = 2 * kPi * n / count,
+                 radius = handle || n == 8 || n == 9 || n == 32 || n == 33 ? 0.5 : 3;
+    skeleton.nodes.push_back({10 * Vector3(std::cos(angle), std::sin(angle), 0), 0.5, (handle ? 1 : 6) * kPi,
+                              2 * kPi * radius, 0});
+    skeleton.edges.push_back({std::min(n, (n + 1) % count), std::max(n, (n + 1) % count)});
+    const bool short_border = handle || n == 39;
+    // Borders along edges are 4 / pi times as long as the straight ones.
+    contacts.push_back({skeleton.edges.back(), short_border ? 4.0 : 24.0});
+  }
+  // Chains on cycles run from joint to joint.
+  skeleton.nodes.push_back({Vector3(-11, 0, 0), 0.5, kPi, 6 * kPi, 0});
+  skeleton.edges.push_back({20, count});
+  contacts.push_back({{20, count}, 24.0});
+  std::sort(skeleton.edges.begin(), skeleton.edges.end());
+  const SkeletonParts parts = find_parts(skeleton, contacts);
+  CHECK(parts.count == 2);
+  for (Index n = 2; n < 38; ++n) CHECK(parts.part_of_node[n] == parts.part_of_node[2]);
+  for (Index n = 42; n < 58; ++n) CHECK(parts.part_of_node[n] != parts.part_of_node[2]);
 }

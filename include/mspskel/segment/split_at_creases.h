@@ -8,8 +8,8 @@
 namespace mspskel {
 
 struct CreasePartOptions {
-  // Two parts stay apart where their border costs at most so many times the square root of the smaller one's
-  // area; [0, 100]. Round an open disc it is 2 sqrt(pi) = 3.5.
+  // A border between two parts is a gain where it costs at most so many times the square root of the smaller
+  // one's area, else a loss; [0, 100]. Round an open disc it is 2 sqrt(pi) = 3.5.
   double cost = 0.5;
   // Parts below this share of the surface do not stay apart; [0, 1].
   double smallest = 0.005;
@@ -20,11 +20,13 @@ struct CreasePartOptions {
 // Throws UsageError naming the option.
 void validate(const CreasePartOptions& options);
 
-// Grows each part anew from its single faces: of all pairs of pieces that touch, the one whose border costs
-// most for its smaller piece becomes one, as long as that is more than `cost` or creases take less than half
-// of what the border would cost by its length. What stays apart lies within a ring of creases. `costs` are
-// those of border_costs. Writes `part_of_face`, numbered by the least face. Throws UsageError for options out
-// of range. O(faces log faces) on meshes whose pieces have few neighbours.
+// Merges the single faces of each part: of all pairs of pieces that touch, the one whose border costs most
+// for its smaller piece becomes one, until the part is one again. Of this tree of merges those are undone,
+// from the last one down, whose borders gain most together: each log(`cost` / what it costs for its smaller
+// piece), where a border of which creases take less than half counts as too dear (optimal cuts of a
+// hierarchy: Guigues, Cocquerez and Le Men 2006, "Scale-sets image analysis"). What stays apart lies within a
+// ring of creases. `costs` are those of border_costs. Writes `part_of_face`, numbered by the least face.
+// Throws UsageError for options out of range. O(faces log faces) on meshes whose pieces have few neighbours.
 void split_at_creases(const SurfaceSnapshot& surface, const std::vector<double>& costs,
                       std::vector<Index>& part_of_face, const CreasePartOptions& options = {});
 
