@@ -4,8 +4,10 @@
 
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/slice/minimum_slice_perimeter.h"
+#include "mspskel/slice/plane_search.h"
 #include "mspskel/slice/slice_error.h"
 #include "support/meshes.h"
+#include "topology/voxel_solids.h"
 
 using namespace mspskel;
 using namespace mspskel::test;
@@ -196,6 +198,29 @@ TEST_CASE("areas sum to the surface's, and threads do not change a bit") {
     CHECK(a.iterations == b.iterations);
     CHECK(a.stops == b.stops);
   }
+}
+
+// A slice of a sponge has as many holes as its size is squared. Work is counted, not time.
+TEST_CASE("slices of a sponge cost no contours of holes that grow with it") {
+  double points_per_vertex[2];
+  for (const int k : {0, 1}) {
+    const int n = k == 0 ? 5 : 9;
+    const SurfaceSnapshot surface = snapshot_of(foam({n, n, n}), 1);
+    const SliceTracer tracer(surface);
+    const BoundingVolumeHierarchy solid(surface);
+    VertexSlices slices = search_minimum_slice_perimeters(tracer, {});
+    compute_slice_errors(tracer, {}, slices);
+    SkeletonMeshOptions options = with(SkeletalPointMethod::kAreaField, HoleSearch::kProbe);
+    options.solid = &solid;
+    const SkeletonMesh mesh = make_skeleton_mesh(tracer, slices, options);
+    CHECK(mesh.with_holes > mesh.vertex_count() / 8);
+    Index inside = 0;
+    for (Index v = 0; v < mesh.vertex_count(); ++v) inside += solid.inside(mesh.position[v]);
+    CHECK(inside > 0.97 * mesh.vertex_count());
+    points_per_vertex[k] = static_cast<double>(mesh.hole_points) / mesh.vertex_count();
+  }
+  INFO("points of holes a vertex: " << points_per_vertex[0] << ", " << points_per_vertex[1]);
+  CHECK(points_per_vertex[1] < 2 * points_per_vertex[0] + 1);
 }
 
 TEST_CASE("making the skeleton mesh can be cancelled") {

@@ -15,6 +15,7 @@
 #include "mspskel/solid/detail/inner_graph.h"
 #include "support/questions.h"
 #include "support/solids.h"
+#include "topology/voxel_solids.h"
 
 using namespace mspskel;
 using namespace mspskel::test;
@@ -71,6 +72,15 @@ TEST_CASE("Thin walls round a hollow are shells, and thick or flat things are no
   CHECK_FALSE(is_shell(prism(4, 5, 9)));
   CHECK_FALSE(is_shell(sample("plate", 3000)));
   CHECK_FALSE(is_shell(to_mesh(polygonise(skin_solid(tripod()), 1500, 0.2))));
+}
+
+// Where many tunnels are closed the slices of a sponge are walls that go round hundreds of them.
+TEST_CASE("A sponge of thin walls is no shell") {
+  const SurfaceSnapshot surface = snapshot_of(foam({7, 7, 7}, 0.55), 1);
+  const SliceTracer tracer(surface);
+  VertexSlices slices = search_minimum_slice_perimeters(tracer, {});
+  compute_slice_errors(tracer, {}, slices);
+  CHECK(find_shells(surface, BoundingVolumeHierarchy(surface), slices) == std::vector<bool>{false});
 }
 
 TEST_CASE("The chords of a wall are measured with questions between them") {

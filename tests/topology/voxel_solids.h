@@ -163,14 +163,14 @@ inline std::set<Cell> random_lattice(int n, double share, Random& random) {
   return random_lattice({n, n, n}, share, random);
 }
 
-// A block with a lattice of tunnels, some of which are closed; those at its top and bottom are open. A cube
+// A block with a lattice of tunnels, of which a share is kept; those at its top and bottom are open. A cube
 // of n nodes a side has the fewer faces a handle the larger it is, a bar of a fixed section as many at any
 // length.
-inline VoxelSolid foam(const Cell& nodes) {
+inline VoxelSolid foam(const Cell& nodes, double share = 0.8) {
   Random random(1);
   VoxelSolid solid;
   solid.box({-1, -1, 0}, {2 * nodes[0], 2 * nodes[1], 2 * nodes[2] - 1});
-  solid.remove(random_lattice(nodes, 0.8, random));
+  solid.remove(random_lattice(nodes, share, random));
   return solid;
 }
 

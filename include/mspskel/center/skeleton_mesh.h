@@ -15,7 +15,9 @@ namespace mspskel {
 enum class HoleSearch {
   kIgnore,  // the slice's own contour alone, as the thesis has it
   // Look for holes where rays from the skeletal point meet something else than the contour: two opposite rays
-  // everywhere, eight at the neighbours of slices with holes.
+  // everywhere, eight at the neighbours of slices with holes. Slices of a sponge, which are wide beside the
+  // area that the surface has for each of its handles, get the point of what is seen of their region from the
+  // vertex's chord: they have as many holes as their size is squared.
   kProbe,
   kAll,  // look for holes everywhere; costs the faces in the box round each slice
 };
@@ -46,8 +48,9 @@ struct SkeletonMesh {
 
   std::array<Index, kSkeletalPointStops> stops{};  // vertices by SkeletalPointStop
   Index without_slice = 0;
-  Index with_holes = 0;         // slices in which holes were found
-  std::int64_t iterations = 0;  // steps of all samples
+  Index with_holes = 0;          // slices in which holes were found or seen
+  std::int64_t hole_points = 0;  // on the contours of those holes that were found
+  std::int64_t iterations = 0;   // steps of all samples
 
   Index vertex_count() const { return static_cast<Index>(position.size()); }
 };

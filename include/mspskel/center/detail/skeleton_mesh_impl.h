@@ -1,9 +1,12 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
+#include "mspskel/base/even_directions.h"
 #include "mspskel/base/linkage.h"
+#include "mspskel/mesh/areas_per_handle.h"
 
 namespace mspskel {
 namespace detail::slice_centre {
@@ -13,6 +16,7 @@ constexpr int kProbeRays = 8;
 struct VertexPoint {
   SkeletalPoint point;
   bool holed = false;
+  Index hole_points = 0;  // on the contours of all holes
 };
 
 // Asks the slices of a mesh for their skeletal points.
@@ -21,6 +25,7 @@ class SlicePoints {
   SlicePoints(const SliceTracer& tracer, const VertexSlices& slices, const SkeletonMeshOptions& options)
       : tracer_(tracer), slices_(slices), options_(options) {
     if (options.holes == HoleSearch::kIgnore) return;
+    of_a_handle_ = areas_per_handle(tracer.surface());
     if (!options.solid) own_ = std::make_unique<BoundingVolumeHierarchy>(tracer.surface());
     solid_ = options.solid ? options.solid : own_.get();
   }
@@ -47,14 +52,55 @@ class SlicePoints {
 
   // Looks for holes from the point found without any, which gives way to another if there are some.
   void probe(SliceRegion& slice, int rays, VertexPoint& result) const {
-    if (slice.region.valid() && may_have_holes(slice, *solid_, result.point.position, rays))
-      find_with_holes(slice, result);
+    if (!slice.region.valid() || !may_have_holes(slice, *solid_, result.point.position, rays)) return;
+    if (!is_of_sponge(slice.through) || !find_in_sight(slice, result)) find_with_holes(slice, result);
   }
 
  private:
+  bool is_of_sponge(Index v) const {
+    return slices_.half_width[v] * slices_.half_width[v] > of_a_handle_[tracer_.surface().component[v]];
+  }
+
+  // The point of what is seen of the slice's region from the middle of the chord at its vertex. In a sponge
+  // the region goes on and on round its holes, and as many of them as its size is squared would be looked
+  // for. False where there is no such chord, or the method asks for more than what is near.
+  bool find_in_sight(const SliceRegion& slice, VertexPoint& result) const {
+    constexpr int kRays = 16;
+    constexpr double kSkin = 1e-9;  // perimeters
+    if (options_.method_with_holes != SkeletalPointMethod::kNearestValley) return false;
+    const double unit = slice.region.perimeter();
+    const PlanarRegion::Sample sample = slice.region.sample(0, 1).front();
+    const Vector2 from = sample.point + kSkin * unit * sample.inward;
+    const auto in_space = [&](const Vector2& d) { return d.x() * slice.frame.u + d.y() * slice.frame.v; };
+    const Vector3 inward = in_space(sample.inward);
+    const auto opposite = solid_->first_hit(slice.frame.to_space(from), inward, unit);
+    if (!opposite) return false;
+    const Vector2 middle = from + 0.5 * opposite->distance * sample.inward;
+    const Vector2 back = -sample.inward, aside = turn_left(back);  // so that the vertex is seen first
+    std::array<double, kRays> distance;
+    solid_->ray_fan(slice.frame.to_space(middle), in_space(back), in_space(aside), kRays, distance.data());
+    std::vector<Vector2> seen;
+    const std::vector<Vector2>& direction = even_directions(kRays);
+    for (int k = 0; k < kRays; ++k) {
+      if (!(distance[k] < unit)) return false;
+      seen.push_back(middle + distance[k] * (direction[k].x() * back + direction[k].y() * aside));
+    }
+    const PlanarRegion sight(seen);
+    if (!sight.valid()) return false;
+    SkeletalPointOptions nearest = options_.point;
+    nearest.method = options_.method_with_holes;
+    const Index before = result.point.iterations;
+    result.point = find_skeletal_point(sight, nearest);
+    result.point.iterations += before;
+    result.holed = true;
+    return true;
+  }
+
   bool find_with_holes(SliceRegion& slice, VertexPoint& result) const {
     result.holed = add_hole_contours(tracer_, *solid_, slice) > 0;
     if (!result.holed) return false;
+    const std::vector<PlanarRegion::Ring>& rings = slice.region.rings();
+    for (std::size_t r = 1; r < rings.size(); ++r) result.hole_points += rings[r].points;
     SkeletalPointOptions holed = options_.point;
     holed.method = options_.method_with_holes;
     const Index before = result.point.iterations;
@@ -68,6 +114,7 @@ class SlicePoints {
   const SkeletonMeshOptions& options_;
   std::unique_ptr<BoundingVolumeHierarchy> own_;
   const BoundingVolumeHierarchy* solid_ = nullptr;
+  std::vector<double> of_a_handle_;  // per component, areas_per_handle
 };
 
 // Neighbours of `from` that have a slice and have not been asked; they count as asked after that.
@@ -169,6 +216,7 @@ MSPSKEL_INLINE SkeletonMesh make_skeleton_mesh(const SliceTracer& tracer, const 
     }
     ++mesh.stops[static_cast<std::size_t>(found[v].point.stop)];
     mesh.with_holes += found[v].holed ? 1 : 0;
+    mesh.hole_points += found[v].hole_points;
     mesh.iterations += found[v].point.iterations;
   }
   detail::slice_centre::fill_in_points(surface, mesh);

@@ -6,6 +6,7 @@
 #include "mspskel/base/linkage.h"
 #include "mspskel/base/value_at_rank.h"
 #include "mspskel/base/watch.h"
+#include "mspskel/mesh/areas_per_handle.h"
 #include "mspskel/mesh/detail/solid_moments.h"
 #include "mspskel/solid/detail/inward_chord.h"
 
@@ -25,6 +26,7 @@ MSPSKEL_INLINE std::vector<bool> find_shells(const SurfaceSnapshot& surface,
   for (Index v = 0; v < surface.vertex_count(); ++v)
     if (surface.vertex_halfedge[v] != kNone) area[surface.component[v]] += surface.vertex_area[v];
   const std::vector<detail::SolidMoments> moments = detail::solid_moments(surface);
+  const std::vector<double> of_a_handle = areas_per_handle(surface);
   for (std::size_t c = 0; c < shell.size(); ++c) {
     if (vertices[c].empty()) continue;
     std::vector<double> widths;
@@ -33,6 +35,7 @@ MSPSKEL_INLINE std::vector<bool> find_shells(const SurfaceSnapshot& surface,
     const double width = detail::value_at_rank(std::move(widths), 0.5);
     // A wall of area A, both sides, and thickness t has volume A t / 2.
     if (!(std::abs(moments[c].volume) < kPossible * width * area[c] / 2)) continue;
+    if (width * width > of_a_handle[c]) continue;
     for (const Index v : vertices[c]) {
       watch.step();
       sliced += surface.vertex_area[v];
