@@ -63,7 +63,8 @@ class SlicePoints {
 
   // The point of what is seen of the slice's region from the middle of the chord at its vertex. In a sponge
   // the region goes on and on round its holes, and as many of them as its size is squared would be looked
-  // for. False where there is no such chord, or the method asks for more than what is near.
+  // for. False where there is no such chord, the point is not seen from it, or the method asks for more than
+  // what is near.
   bool find_in_sight(const SliceRegion& slice, VertexPoint& result) const {
     constexpr int kRays = 16;
     constexpr double kSkin = 1e-9;  // perimeters
@@ -89,9 +90,12 @@ class SlicePoints {
     if (!sight.valid()) return false;
     SkeletalPointOptions nearest = options_.point;
     nearest.method = options_.method_with_holes;
-    const Index before = result.point.iterations;
-    result.point = find_skeletal_point(sight, nearest);
-    result.point.iterations += before;
+    SkeletalPoint point = find_skeletal_point(sight, nearest);
+    // Between two rays there may be a hole.
+    if (solid_->segment_crosses(slice.frame.to_space(middle), slice.frame.to_space(point.position)))
+      return false;
+    point.iterations += result.point.iterations;
+    result.point = point;
     result.holed = true;
     return true;
   }
