@@ -7,6 +7,7 @@
 #include "mspskel/mesh/coarsen_surface.h"
 #include "mspskel/render/render.h"
 #include "support/solids.h"
+#include "topology/voxel_solids.h"
 
 using namespace mspskel;
 using namespace mspskel::test;
@@ -69,6 +70,45 @@ TEST_CASE("A short vessel's skeleton ends in the middle of each of its caps") {
         CHECK(nearest < 0.4 * outlet.radius);
       }
     }
+  }
+}
+
+TEST_CASE("The arms of square tees and crosses have an end each, and cubes none") {
+  for (const int arms : {0, 3, 4}) {
+    VoxelSolid cells;
+    cells.box({0, 0, 0}, {1, 1, 1});
+    if (arms > 0) cells.box({-1, 0, 0}, {2, 1, 1});
+    if (arms > 0) cells.box({0, 0, 0}, {1, 1, 2});
+    if (arms > 3) cells.box({0, 0, -1}, {1, 1, 1});
+    const DefaultMesh mesh = rotated(to_mesh(boundary(cells, 4)), {0.2, 0.5, -0.8}, 0.7);
+    CAPTURE(arms);
+    const Solid solid(mesh);
+    CHECK(detail::FlatEndSearch(solid.surface, solid.hierarchy, {}).run().size() ==
+          static_cast<std::size_t>(arms));
+    if (arms > 0) CHECK(count_graph(extract_skeleton(mesh).skeleton).leaves == arms);
+  }
+}
+
+TEST_CASE("A stand with hooks on its top ends at its foot, however wide that is") {
+  for (const double foot : {0.6, 1.3, 1.8}) {
+    BallGraph graph;
+    graph.blend = 0.05;
+    graph.nodes = {{{0, 0, 0}, 0.2}, {{0, 0, 6}, 0.2}};
+    graph.edges = {{0, 1}};
+    for (const double angle : {0.3, 2.4, 4.5}) {
+      graph.edges.emplace_back(1, static_cast<Index>(graph.nodes.size()));
+      graph.nodes.push_back({{1.4 * std::cos(angle), 1.4 * std::sin(angle), 6.9}, 0.15});
+    }
+    PolygonSoup soup = skin_graph(graph, 6000);
+    // The bottom of the pole is spread out to a disc.
+    for (Vector3& p : soup.points)
+      if (p.z() < 0.3) p.head<2>() *= 1 + (foot / 0.2 - 1) * std::min(1.0, (0.3 - p.z()) / 0.1);
+    const CurveSkeleton skeleton = extract_skeleton(to_mesh(soup)).skeleton;
+    CAPTURE(foot);
+    CHECK(count_graph(skeleton).leaves == 4);
+    double lowest = 10;
+    for (const SkeletonNode& node : skeleton.nodes) lowest = std::min(lowest, node.position.z());
+    CHECK(lowest < 0.5);
   }
 }
 

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "mspskel/limbs/detail/limb_search.h"
@@ -13,9 +15,10 @@ namespace mspskel {
 namespace detail {
 
 // What is left of each component without its limbs. A body that is longer than wide ends twice along its
-// principal axis. One that is not ends opposite to its limb if it has a single one (in its middle if it is
-// flat there, as the head of a tack, and has no handle), and twice along the axis that stands apart if it has
-// none. A limb that leaves the body near such an end, or has the end on its surface, stands for it.
+// principal axis. One that is not ends opposite to its limbs if all leave to one side (in its middle if it is
+// not long that way, as the head of a tack or the foot of a stand, and has no handle), and twice along the
+// axis that stands apart if it has none. A limb that leaves the body near such an end, or has the end on its
+// surface, stands for it.
 class BodyEnds {
  public:
   BodyEnds(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
@@ -54,20 +57,14 @@ class BodyEnds {
     if (moment[2] >= kLonger * kLonger * moment[1])
       for (const double sign : {-1.0, 1.0}) add_end(component, sign * solver.eigenvectors().col(2), ends);
     if (body.limbs == 0 && ends.empty()) add_ends_of_axis(component, solver, ends);
-    if (body.limbs != 1 || !ends.empty()) return ends;
+    if (!ends.empty()) return ends;
     Index others = 0;
-    bool flat = false;
-    for (const FoundLimb& limb : limbs_) {
-      if (surface_.component[limb.tip.vertex] != component) continue;
-      if (limb.tip.kind != TipKind::kLimb) {
-        ++others;
-        continue;
-      }
-      const Vector3 away = (body.centre - limb.root).normalized();
-      add_end(component, away, ends);
-      flat = solid_.first_hit(body.centre, away, kFlat * solid_.distance(body.centre)).has_value();
-    }
-    if (ends.empty() && flat && others == 0 && !loops) ends.push_back(end_at(component, body.centre));
+    for (const FoundLimb& limb : limbs_)
+      if (surface_.component[limb.tip.vertex] == component && limb.tip.kind != TipKind::kLimb) ++others;
+    const std::optional<Vector3> away = away_from_limbs(component);
+    if (!away) return ends;
+    add_end(component, *away, ends);
+    if (ends.empty() && others == 0 && !loops) ends.push_back(end_at(component, body.centre));
     return ends;
   }
 
@@ -80,7 +77,6 @@ class BodyEnds {
   };
 
   static constexpr double kLonger = 1.4;  // length over width
-  static constexpr double kFlat = 1.15;   // of the ball in the middle, which all but touches the surface there
 
   // Of a squat body, where one principal axis differs from the other two, and the way along it is longer than
   // the ball in the middle is wide: in a plate it is not.
@@ -94,6 +90,24 @@ class BodyEnds {
     const auto ahead = solid_.first_hit(centre, axis), back = solid_.first_hit(centre, -axis);
     if (!ahead || !back || ahead->distance + back->distance < 2 * kStretch * solid_.distance(centre)) return;
     for (const double sign : {-1.0, 1.0}) add_end(component, sign * axis, ends, 1.0);
+  }
+
+  // The opposite of where all limbs leave, seen from the middle of the body; nothing if they leave to several
+  // sides, or if there are none.
+  std::optional<Vector3> away_from_limbs(Index component) const {
+    constexpr double kOneSide = 0.5;  // the cosine of the half angle of the cone that they are in
+    std::vector<Vector3> directions;
+    Vector3 sum = Vector3::Zero();
+    for (const FoundLimb& limb : limbs_) {
+      if (surface_.component[limb.tip.vertex] != component || limb.tip.kind != TipKind::kLimb) continue;
+      directions.push_back((limb.root - body_[component].centre).normalized());
+      sum += directions.back();
+    }
+    const Vector3 axis = sum.normalized();
+    const auto is_beside = [&](const Vector3& direction) { return direction.dot(axis) < kOneSide; };
+    if (!(sum.norm() > 0) || std::any_of(directions.begin(), directions.end(), is_beside))
+      return std::nullopt;
+    return -axis;
   }
 
   // The end must be at least so many radii of the ball in the middle away.

@@ -21,9 +21,10 @@ struct FlatEnd {
   Vector3 normal = Vector3::Zero();
 };
 
-// A cap is flat and round, the surface turns off sharply all round it, and the wall beyond its rim runs along
-// its normal, as below a tube's opening in a mesh that is not closed. A face of a block is no cap: it is no
-// rounder than a square.
+// A cap is flat, the surface turns off sharply all round it, and the wall beyond its rim runs along its
+// normal, as below a tube's opening in a mesh that is not closed. A face of a block is none: others beside it
+// are flat, about as wide as long and end sharply all round, too. What is rounder than a square has no such
+// faces beside it.
 class FlatEndSearch {
  public:
   FlatEndSearch(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
@@ -32,6 +33,7 @@ class FlatEndSearch {
         solid_(solid),
         half_area_(half_areas_of_components(surface)),
         tried_(static_cast<std::size_t>(surface.face_count()), false),
+        in_cap_(tried_.size(), false),
         reached_(tried_.size(), 0),
         watch_(progress, "arcs") {
     for (Index f = 0; f < surface.face_count(); ++f)
@@ -40,12 +42,15 @@ class FlatEndSearch {
 
   // Throws Cancelled. Cost: O(faces); nothing but the normals where no edge is sharp.
   std::vector<FlatEnd> run() {
-    std::vector<FlatEnd> ends;
+    std::vector<Cap> caps;
     for (Index h = 0; h < surface_.halfedge_count(); ++h) {
       const Index f = SurfaceSnapshot::face(h);
-      if (tried_[f] || !is_sharp_outward(h)) continue;
-      if (std::optional<FlatEnd> end = end_beside(f)) ends.push_back(std::move(*end));
+      if (tried_[f] || !turns_off(h, normal_[f])) continue;
+      if (std::optional<Cap> cap = cap_beside(f)) caps.push_back(std::move(*cap));
     }
+    std::vector<FlatEnd> ends;
+    for (const Cap& cap : caps)
+      if (!is_face_of_block(cap) && ends_tube(cap)) ends.push_back(end_at(cap));
     return ends;
   }
 
@@ -56,12 +61,13 @@ class FlatEndSearch {
     double length = 0;
   };
 
-  bool is_sharp_outward(Index h) const {
-    const Vector3 &a = normal_[SurfaceSnapshot::face(h)],
-                  &b = normal_[SurfaceSnapshot::face(surface_.twin[h])];
-    const Vector3 along = surface_.position[surface_.target(h)] - surface_.position[surface_.origin[h]];
-    return a.dot(b) < kSharp && a.cross(b).dot(along) > 0;
-  }
+  struct Cap {
+    std::vector<Index> faces;
+    Rim rim;
+    Vector3 normal = Vector3::Zero();
+    double radius = 0;
+    double roundness = 0;  // 1 for a circle, 0.785 for a square, 0.33 for a ring of twice the hole's width
+  };
 
   // The faces that hang together with one and lie about across an axis.
   std::vector<Index> faces_across(const Vector3& axis, Index first) {
@@ -87,24 +93,38 @@ class FlatEndSearch {
 
   // A noisy surface's first face may lie aslant, so the cap grows twice, the second time across its own mean
   // normal.
-  std::optional<FlatEnd> end_beside(Index first) {
+  std::optional<Cap> cap_beside(Index first) {
+    constexpr std::size_t kLeastRim = 4;  // edges
+    Cap cap;
+    cap.faces = faces_across(normal_[first], first);
+    tried_[first] = true;
+    const Vector3 axis = area_vector(cap.faces).normalized();
+    cap.faces = faces_across(axis, first);
+    for (const Index f : cap.faces) tried_[f] = true;
+    cap.rim = rim_of(cap.faces, axis);
+    const Vector3 area = area_vector(cap.faces);
+    if (cap.rim.halfedges.size() < kLeastRim || !(area.norm() > 0)) return std::nullopt;
+    cap.normal = area.normalized();
+    cap.radius = 2 * area.norm() / cap.rim.length;
+    cap.roundness = 4 * kPi * area.norm() / (cap.rim.length * cap.rim.length);
+    if (!is_flat(cap)) return std::nullopt;
+    if (cap.roundness >= kSlim)
+      for (const Index f : cap.faces) in_cap_[f] = true;
+    return cap;
+  }
+
+  // A cap is as wide as long, about, and no top of noise.
+  bool is_face_of_block(const Cap& cap) const {
+    constexpr double kRounder = 0.82;
     constexpr std::size_t kLeastRim = 8;  // edges: with fewer the tops of noise look round
     constexpr double kLeastShare =
         0.005;  // of the component's area: what is thinner and a limb is told as one
-    std::vector<Index> faces = faces_across(normal_[first], first);
-    tried_[first] = true;
-    const Vector3 axis = area_vector(faces).normalized();
-    faces = faces_across(axis, first);
-    for (const Index f : faces) tried_[f] = true;
-    const Rim rim = rim_of(faces, axis);
-    const Vector3 area = area_vector(faces);
-    const double radius = rim.length > 0 ? 2 * area.norm() / rim.length : 0.0;
-    if (!(radius > 0) || rim.halfedges.size() < kLeastRim ||
-        area.norm() < kLeastShare * 2 * half_area_[surface_.component[surface_.origin[3 * first]]] ||
-        !is_round(area.norm(), rim.length) || !is_flat(faces, area.normalized(), radius))
-      return std::nullopt;
-    if (!is_closed_by(faces, rim, area.normalized(), radius)) return std::nullopt;
-    return end_at(faces, rim, area.normalized(), radius);
+    const Index component = surface_.component[surface_.origin[3 * cap.faces.front()]];
+    if (area_vector(cap.faces).norm() < kLeastShare * 2 * half_area_[component]) return true;
+    if (cap.roundness >= kRounder) return cap.rim.halfedges.size() < kLeastRim;
+    return cap.roundness < kSlim ||
+           std::any_of(cap.rim.halfedges.begin(), cap.rim.halfedges.end(),
+                       [&](Index h) { return in_cap_[SurfaceSnapshot::face(surface_.twin[h])]; });
   }
 
   // The sum over faces, not twice it.
@@ -112,6 +132,14 @@ class FlatEndSearch {
     Vector3 sum = Vector3::Zero();
     for (const Index f : faces) sum += surface_.face_area(f) * normal_[f];
     return sum;
+  }
+
+  // Whether the surface turns off sharply, and outward, across a half-edge of a face that lies across an
+  // axis.
+  bool turns_off(Index h, const Vector3& axis) const {
+    const Vector3& beyond = normal_[SurfaceSnapshot::face(surface_.twin[h])];
+    const Vector3 along = surface_.position[surface_.target(h)] - surface_.position[surface_.origin[h]];
+    return beyond.dot(axis) < kSharp && axis.cross(beyond).dot(along) > 0;
   }
 
   bool leads_out(Index h) const { return reached_[SurfaceSnapshot::face(surface_.twin[h])] != round_; }
@@ -133,7 +161,7 @@ class FlatEndSearch {
           rim.length += length;
           rim.centre +=
               0.5 * length * (surface_.position[surface_.origin[h]] + surface_.position[surface_.target(h)]);
-          if (!(normal_[SurfaceSnapshot::face(surface_.twin[h])].dot(axis) < kSharp)) smooth += length;
+          if (!turns_off(h, axis)) smooth += length;
           for (h = SurfaceSnapshot::next(h); !leads_out(h);) h = SurfaceSnapshot::next(surface_.twin[h]);
           if (h == first) break;
           walked.insert(h);
@@ -147,67 +175,64 @@ class FlatEndSearch {
     return longest;
   }
 
-  static bool is_round(double area, double length) {
-    constexpr double kRounder = 0.82;  // a circle is 1, a square 0.785, a ring of twice the hole's width 0.33
-    return 4 * kPi * area >= kRounder * length * length;
-  }
-
   // Whether the faces lie in a plane but for a tenth of the radius, in the square mean.
-  bool is_flat(const std::vector<Index>& faces, const Vector3& normal, double radius) const {
+  bool is_flat(const Cap& cap) const {
     constexpr double kUneven = 0.1;
     double area = 0, first = 0, second = 0;
-    for (const Index f : faces) {
+    for (const Index f : cap.faces) {
       const double own = surface_.face_area(f);
-      const double height = (surface_.face_centroid(f) - surface_.face_centroid(faces.front())).dot(normal);
+      const double height =
+          (surface_.face_centroid(f) - surface_.face_centroid(cap.faces.front())).dot(cap.normal);
       area += own;
       first += own * height;
       second += own * height * height;
     }
-    return second * area - first * first <= std::pow(kUneven * radius * area, 2);
+    return second * area - first * first <= std::pow(kUneven * cap.radius * area, 2);
   }
 
   // Whether a tube ends in the cap: it is as deep as wide by half there, and the wall within half a radius of
   // the rim runs along the normal; by the mean square of the cosine, as a cone does whose side is 30 degrees
   // from its axis.
-  bool is_closed_by(const std::vector<Index>& faces, const Rim& rim, const Vector3& normal, double radius) {
+  bool ends_tube(const Cap& cap) {
     constexpr double kMostAcross = 0.25;
-    const Vector3 start = rim.centre - kAhead * radius * normal;
-    if (!solid_.inside(start) || solid_.first_hit(start, -normal, (1 - kAhead) * radius)) return false;
+    const Vector3& centre = cap.rim.centre;
+    const Vector3 start = centre - kAhead * cap.radius * cap.normal;
+    if (!solid_.inside(start) || solid_.first_hit(start, -cap.normal, (1 - kAhead) * cap.radius))
+      return false;
     double reach = 0;
-    for (const Index h : rim.halfedges)
-      reach = std::max(reach, (surface_.position[surface_.origin[h]] - rim.centre).norm());
-    reach += 0.5 * radius;
-    const auto is_near = [&](Index f) { return (surface_.face_centroid(f) - rim.centre).norm() <= reach; };
-    const std::vector<Index> all = connected(faces, is_near);
+    for (const Index h : cap.rim.halfedges)
+      reach = std::max(reach, (surface_.position[surface_.origin[h]] - centre).norm());
+    reach += 0.5 * cap.radius;
+    const std::vector<Index> all =
+        connected(cap.faces, [&](Index f) { return (surface_.face_centroid(f) - centre).norm() <= reach; });
     double area = 0, across = 0;
-    for (std::size_t i = faces.size(); i < all.size(); ++i) {
-      const double own = surface_.face_area(all[i]), cosine = normal_[all[i]].dot(normal);
+    for (std::size_t i = cap.faces.size(); i < all.size(); ++i) {
+      const double own = surface_.face_area(all[i]);
       area += own;
-      across += own * cosine * cosine;
+      across += own * std::pow(normal_[all[i]].dot(cap.normal), 2);
     }
     return across <= kMostAcross * area;
   }
 
-  FlatEnd end_at(const std::vector<Index>& faces, const Rim& rim, const Vector3& normal,
-                 double radius) const {
-    FlatEnd flat{{}, normal};
+  FlatEnd end_at(const Cap& cap) const {
+    FlatEnd flat{{}, cap.normal};
     LimbTip& end = flat.tip;
     end.kind = TipKind::kFlatEnd;
-    end.target = rim.centre - kAhead * radius * normal;
-    end.measures.depth = radius;
-    end.measures.half_width = 0.25 * radius;  // as that of a body's end: the arc is to end in the middle
-    for (const Index f : faces)
+    end.target = cap.rim.centre - kAhead * cap.radius * cap.normal;
+    end.measures.depth = cap.radius;
+    end.measures.half_width = 0.25 * cap.radius;  // as that of a body's end: the arc is to end in the middle
+    for (const Index f : cap.faces)
       end.cap.insert(end.cap.end(), surface_.origin.begin() + 3 * f, surface_.origin.begin() + 3 * f + 3);
     std::sort(end.cap.begin(), end.cap.end());
     end.cap.erase(std::unique(end.cap.begin(), end.cap.end()), end.cap.end());
-    end.vertex = *std::min_element(end.cap.begin(), end.cap.end(), [&](Index v, Index w) {
-      return (surface_.position[v] - rim.centre).squaredNorm() <
-             (surface_.position[w] - rim.centre).squaredNorm();
-    });
+    const auto away = [&](Index v) { return (surface_.position[v] - cap.rim.centre).squaredNorm(); };
+    end.vertex = *std::min_element(end.cap.begin(), end.cap.end(),
+                                   [&](Index v, Index w) { return away(v) < away(w); });
     return flat;
   }
 
   static constexpr double kSharp = 0.64;  // the cosine of 50 degrees
+  static constexpr double kSlim = 0.6;    // roundness of a rectangle 2.5 times as long as wide, or of an L
   static constexpr double kAhead = 0.1;   // radii before the surface
 
   const SurfaceSnapshot& surface_;
@@ -215,6 +240,7 @@ class FlatEndSearch {
   std::vector<double> half_area_;  // of each component
   std::vector<Vector3> normal_;    // of each face
   std::vector<bool> tried_;
+  std::vector<bool> in_cap_;    // of caps that are not slim, be they ends or not
   std::vector<Index> reached_;  // the last round that came by
   Index round_ = 0;
   Watch watch_;
