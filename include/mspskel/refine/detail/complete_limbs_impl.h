@@ -10,6 +10,7 @@
 #include "mspskel/arcs/detail/graph_points.h"
 #include "mspskel/base/linkage.h"
 #include "mspskel/base/watch.h"
+#include "mspskel/limbs/detail/bare_plates.h"
 #include "mspskel/refine/detail/arc_leaves.h"
 #include "mspskel/refine/detail/arc_sections.h"
 #include "mspskel/refine/detail/equal_limbs.h"
@@ -41,6 +42,7 @@ class LimbCompletion {
     constexpr int kRounds = 8;
     constexpr double kLeft = 0.25;  // of its reach: less is left where another arc stands for the part
     Index added = reach_tips();
+    added += reach_plates();
     mark_plates();
     for (int round = 0; round < kRounds; ++round) {
       // All are told before any gets its arc, whose balls may come near the others: equal limbs are told
@@ -78,6 +80,26 @@ class LimbCompletion {
     Index added = 0;
     for (const auto& [depth, i] : bare)
       if (uncovered_.distance(tips_[i].vertex) > uncovered(tips_[i]) && reach_tip(tips_[i])) ++added;
+    return added;
+  }
+
+  // Arcs to the plates that none leads into.
+  Index reach_plates() {
+    std::vector<Vector3> points;
+    for (Index h = 0; h < graph_.hub_count(); ++h)
+      if (graph_.hub_alive[h]) points.push_back(graph_.hub_position[h]);
+    for (const Arc& arc : graph_.arcs) points.insert(points.end(), arc.points.begin(), arc.points.end());
+    Index added = 0;
+    for (const Plate& plate : bare_plates(surface_, solid_, options_, uncovered_.distances(), points,
+                                          least_protrusion(), execution_.progress)) {
+      LimbTip tip = plate.limb.tip;
+      tip.plate = plate.limb.part;
+      tip.position = surface_.position[tip.vertex];
+      keep_target_well_inside(tip, solid_);
+      if (!reach_tip(tip)) continue;
+      tips_.push_back(std::move(tip));
+      ++added;
+    }
     return added;
   }
 
