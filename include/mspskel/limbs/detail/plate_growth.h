@@ -120,7 +120,7 @@ class PlateGrowth {
     Vector3 middle = Vector3::Zero(), up = Vector3::Zero();
     double width = 0;               // across `up`, along the plate
     std::vector<Vector3> vertices;  // of its edges
-    int pieces = 0;                 // that do not hang together, without those of small gaps
+    bool in_pieces = false;         // none that hangs together is most of it
   };
 
   // A face of the side of a plate that a vertex is on the rim of: where the ball inward of it, as wide as it
@@ -303,14 +303,16 @@ class PlateGrowth {
         !(level.depth > kLeastTipDepth * options_.smallest))
       return std::nullopt;
     // Plates that meet have roots round corners, and one of two may be more than half of all. What is thick
-    // and so is a body or a bend.
+    // and so is a body or a bend, and what is fixed in several places is a top on legs.
     const bool straight = highest - lowest <= kStraight * level.depth;
     const bool most = area >= half_area_[surface_.component[limb.part.front()]];
-    if (slab.thickness > (straight && !most ? kThin : kSheet) * root->width) return std::nullopt;
+    const bool plain = straight && !most;
+    plate.is_bow = root->in_pieces;
+    if (slab.thickness > (plain ? kThin : kSheet) * root->width || (plate.is_bow && !plain))
+      return std::nullopt;
     plate.stands_out = level.slenderness() >= options_.slenderness && !is_blunt(level.depth_over_mouth());
     // How low it is, is clear only on a straight root.
     if (!plate.stands_out && !straight) return std::nullopt;
-    plate.is_bow = root->pieces > 1;
     plate.across = slab.across;
     plate.up = root->up;
     plate.thickness = slab.thickness;
@@ -349,6 +351,7 @@ class PlateGrowth {
   }
 
   std::optional<Root> find_root(const std::vector<Index>& faces, const Vector3& across) const {
+    constexpr double kMost = 0.75;  // of the root: the rest goes round small gaps
     Root root;
     Vector3 centre = Vector3::Zero();
     double area = 0, length = 0;
@@ -373,16 +376,16 @@ class PlateGrowth {
     root.up -= root.up.dot(across) * across;
     if (!(root.up.norm() > 0)) return std::nullopt;
     root.up.normalize();
-    root.pieces = pieces_of(edges, 0.25 * length);
+    root.in_pieces = longest_piece(edges) < kMost * length;
     return root;
   }
 
-  // How many pieces of edges, each given with its ends, hang together and are longer than `least`. The edges
-  // run round faces, so each begins where another one ends.
-  int pieces_of(std::vector<std::pair<Index, Index>> edges, double least) const {
+  // The length of the longest piece of edges that hang together, each given with its ends. They run round
+  // faces, so each begins where another one ends.
+  double longest_piece(std::vector<std::pair<Index, Index>> edges) const {
     std::sort(edges.begin(), edges.end());
     std::vector<bool> walked(edges.size(), false);
-    int pieces = 0;
+    double longest = 0;
     for (std::size_t first = 0; first < edges.size(); ++first) {
       if (walked[first]) continue;
       double length = 0;
@@ -399,9 +402,9 @@ class PlateGrowth {
           piece.push_back(k);
         }
       }
-      if (length > least) ++pieces;
+      longest = std::max(longest, length);
     }
-    return pieces;
+    return longest;
   }
 
   std::vector<Index> vertices_of(const std::vector<Index>& faces) const {

@@ -83,7 +83,7 @@ class LimbCompletion {
     return added;
   }
 
-  // Arcs to the plates that none leads into.
+  // Arcs to the plates that none leads into. Where a limb was told before, reach_tips has done what it can.
   Index reach_plates() {
     std::vector<Vector3> points;
     for (Index h = 0; h < graph_.hub_count(); ++h)
@@ -92,6 +92,12 @@ class LimbCompletion {
     Index added = 0;
     for (const Plate& plate : bare_plates(surface_, solid_, options_, uncovered_.distances(), points,
                                           least_protrusion(), execution_.progress)) {
+      const std::vector<Index>& part = plate.limb.part;
+      const auto ends_there = [&](const LimbTip& tip) {
+        return (tip.kind == TipKind::kLimb || tip.kind == TipKind::kEar) &&
+               std::binary_search(part.begin(), part.end(), tip.vertex);
+      };
+      if (std::any_of(tips_.begin(), tips_.end(), ends_there)) continue;
       LimbTip tip = plate.limb.tip;
       tip.plate = plate.limb.part;
       tip.position = surface_.position[tip.vertex];
