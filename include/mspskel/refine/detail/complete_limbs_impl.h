@@ -1,7 +1,9 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -71,14 +73,18 @@ class LimbCompletion {
   // balls of the loop.
   Index reach_tips() {
     const auto at = graph_.incidence();
-    std::vector<std::pair<double, Index>> bare;
+    // The deepest first. Of those as deep but for rounding the nearest: ways to what lies beyond it would
+    // start at its end, across the gap.
+    constexpr double kPerFold = 100;  // depths that differ by less than a hundredth
+    std::vector<std::tuple<double, double, Index>> bare;
     const std::vector<std::size_t> leaf = leaves_of_tips(graph_, ArcLeaves(graph_, at), tips_);
     for (std::size_t i = 0; i < tips_.size(); ++i)
       if (leaf[i] == kNoLeaf && tips_[i].kind != TipKind::kWayEnd)
-        bare.push_back({-tips_[i].measures.depth, static_cast<Index>(i)});
+        bare.emplace_back(-std::round(kPerFold * std::log(tips_[i].measures.depth)),
+                          uncovered_.distance(tips_[i].vertex), static_cast<Index>(i));
     std::sort(bare.begin(), bare.end());
     Index added = 0;
-    for (const auto& [depth, i] : bare)
+    for (const auto& [depth, distance, i] : bare)
       if (uncovered_.distance(tips_[i].vertex) > uncovered(tips_[i]) && reach_tip(tips_[i])) ++added;
     return added;
   }
