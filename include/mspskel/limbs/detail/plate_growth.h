@@ -102,7 +102,9 @@ class PlateGrowth {
   // The same from a vertex of its rim.
   std::optional<Plate> grow_at(Index v, double most) {
     const Index side = side_near(v);
-    return side == kNone ? std::nullopt : grow(side, most);
+    if (side == kNone || tried_[side] || chord(side) > most || !is_wide(side, -surface_.normal[v]))
+      return std::nullopt;
+    return grow(side, most);
   }
 
   const Vector3& normal(Index f) const { return normal_[f]; }
@@ -122,6 +124,23 @@ class PlateGrowth {
     std::vector<Vector3> vertices;  // of its edges
     bool in_pieces = false;         // none that hangs together is most of it
   };
+
+  // Whether the solid is as thick on both sides of the way inward from a face near the rim: where it is not,
+  // as in the end of a tube, nothing needs to grow.
+  bool is_wide(Index side, const Vector3& inward) {
+    const Vector3& across = normal_[side];
+    const double thickness = chord(side), most = kAlike * thickness;
+    Vector3 along = inward - inward.dot(across) * across;
+    if (!(thickness > 0) || !(along.norm() > 0)) return false;
+    along.normalize();
+    for (const double sign : {-1.0, 1.0}) {
+      const Vector3 x = surface_.face_centroid(side) - 0.5 * thickness * across +
+                        thickness * (along + sign * across.cross(along));
+      const double here = length_within(x, across, most) + length_within(x, -across, most);
+      if (here > most || here * kAlike < thickness) return false;
+    }
+    return true;
+  }
 
   // A face of the side of a plate that a vertex is on the rim of: where the ball inward of it, as wide as it
   // is deep, has outgrown the plate, the surface is nearest across it. The rim's own faces lie aslant. kNone
