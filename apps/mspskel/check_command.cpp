@@ -50,8 +50,9 @@ void print(const Checked& checked) {
   if (checked.uncovered.empty())
     std::printf("coverage     every part of %.3g widths has an arc\n", kMissedWidths);
   for (const UncoveredPart& part : checked.uncovered)
-    std::printf("coverage     NO ARC in a part of %.2g widths at %.6g %.6g %.6g\n", part.widths,
-                part.position.x(), part.position.y(), part.position.z());
+    std::printf("coverage     NO ARC in a %s of %.2g widths at %.6g %.6g %.6g\n",
+                part.is_plate ? "plate" : "part", part.widths, part.position.x(), part.position.y(),
+                part.position.z());
   std::printf("graph        %s, %s, %s, %s, %s\n", counted(c.nodes, "node").c_str(),
               counted(c.edges, "edge").c_str(), counted(c.leaves, "leaf", "leaves").c_str(),
               counted(c.joints, "joint").c_str(), counted(c.spurs, "spur").c_str());

@@ -78,7 +78,8 @@ Json coverage_json(const std::vector<UncoveredPart>& uncovered) {
     parts.push_back({{"vertex", part.vertex},
                      {"position", {part.position.x(), part.position.y(), part.position.z()}},
                      {"depth", part.depth},
-                     {"widths", part.widths}});
+                     {"widths", part.widths},
+                     {"plate", part.is_plate}});
   return {{"uncovered", parts}};
 }
 

@@ -26,8 +26,8 @@ std::string what_is_outside(const SurfaceSnapshot& surface, const TopologyCertif
 std::string what_is_uncovered(const std::vector<UncoveredPart>& parts) {
   char widths[32];
   std::snprintf(widths, sizeof widths, "%.2g", parts.front().widths);
-  const std::string largest =
-      "a part of " + std::string(widths) + " widths at " + place(parts.front().position);
+  const std::string largest = std::string(parts.front().is_plate ? "a plate" : "a part") + " of " + widths +
+                              " widths at " + place(parts.front().position);
   if (parts.size() == 1) return largest + " has no arc";
   return counted(static_cast<Index>(parts.size()), "part") + " have no arc, the longest " + largest;
 }

@@ -11,6 +11,7 @@
 #include "support/arc_graphs.h"
 #include "support/meshes.h"
 #include "support/solids.h"
+#include "topology/voxel_solids.h"
 
 using namespace mspskel;
 using namespace mspskel::test;
@@ -75,10 +76,56 @@ TEST_CASE("Nothing is uncovered where every limb has its arc, and a limb that lo
 }
 
 TEST_CASE("Blocks and balls and plates have nothing that people would call a limb without an arc") {
-  for (const char* name : {"sphere", "prism", "plate", "cup"}) {
+  for (const char* name : {"sphere", "prism", "plate", "cup", "vase", "table", "box"}) {
     const ExtractResult result = extract_skeleton(sample(name, 4000));
     CAPTURE(name);
     CHECK(uncovered(result.surface, result.skeleton).empty());
+  }
+}
+
+TEST_CASE("Plates that no arc leads into are told, however wide they are, and no others") {
+  constexpr int kWidth = 10, kBack = 10, kArm = 6, kLeg = 6;
+  VoxelSolid chair;
+  chair.box({0, 0, 0}, {kWidth, kWidth, 1});
+  chair.box({0, kWidth - 1, 0}, {kWidth, kWidth, 1 + kBack});
+  for (const int x : {0, kWidth - 1}) {
+    chair.box({x, 0, 0}, {x + 1, kWidth, 1 + kArm});
+    for (const int y : {0, kWidth - 1}) chair.box({x, y, -kLeg}, {x + 1, y + 1, 0});
+  }
+  for (const int fine : {1, 2}) {
+    CAPTURE(fine);
+    const SurfaceSnapshot surface = make_snapshot(to_mesh(boundary(chair, fine)));
+    // Of the legs and across the seat.
+    CurveSkeleton skeleton;
+    const auto add = [&](const Vector3& from, const Vector3& to) {
+      for (int i = 0; i <= 20; ++i) {
+        skeleton.nodes.emplace_back();
+        skeleton.nodes.back().position = from + i / 20.0 * (to - from);
+        const auto n = static_cast<Index>(skeleton.nodes.size());
+        if (i > 0) skeleton.edges.push_back({n - 2, n - 1});
+      }
+    };
+    const Vector3 middle(0.5 * kWidth, 0.5 * kWidth, 0.5);
+    for (const double x : {0.5, kWidth - 0.5})
+      for (const double y : {0.5, kWidth - 0.5}) {
+        add({x, y, 0.5 - kLeg}, {x, y, 0.5});
+        add({x, y, 0.5}, middle);
+      }
+    const auto plates = [&] {
+      std::size_t backs = 0, arms = 0;
+      for (const UncoveredPart& part : uncovered(surface, skeleton)) {
+        CHECK(part.is_plate);
+        ++(part.position.y() > kWidth - 1.5 ? backs : arms);
+        CHECK(part.position.z() > kArm);
+        CHECK(part.depth > 0.5 * kArm);
+      }
+      return std::pair(backs, arms);
+    };
+    CHECK(plates() == std::pair<std::size_t, std::size_t>(1, 2));
+    add({0.5 * kWidth, kWidth - 0.5, 0.5}, {0.5 * kWidth, kWidth - 0.5, kBack + 0.5});
+    CHECK(plates() == std::pair<std::size_t, std::size_t>(0, 2));
+    for (const double x : {0.5, kWidth - 0.5}) add({x, 0.5 * kWidth, 0.5}, {x, 0.3 * kWidth, kArm + 0.5});
+    CHECK(plates() == std::pair<std::size_t, std::size_t>(0, 0));
   }
 }
 

@@ -317,10 +317,69 @@ TEST_CASE("A fin of sixteen triangles is a plate, since no gap of it is as large
   for (Vector3& p : soup.points) p = p.cwiseProduct(Vector3(1, 0.4, 2));
   const Solid given(to_mesh(soup));
   const std::vector<detail::Plate> plates =
-      detail::PlateSearch(given.surface, given.hierarchy, LimbOptions(), {}).run();
+      detail::PlateSearch(given.surface, given.hierarchy, LimbOptions(), {})
+          .run(std::vector<double>(given.surface.position.size(), 0.0));
   REQUIRE(plates.size() == 1);
   CHECK(plates.front().stands_out);
   CHECK(plates.front().limb.part.size() == 12);
+}
+
+TEST_CASE("The back and the arms of an armchair are limbs, though their roots go round corners") {
+  constexpr int kWidth = 10, kBack = 10, kArm = 6, kLeg = 6;
+  VoxelSolid chair;
+  chair.box({0, 0, 0}, {kWidth, kWidth, 1});
+  chair.box({0, kWidth - 1, 0}, {kWidth, kWidth, 1 + kBack});
+  for (const int x : {0, kWidth - 1}) {
+    chair.box({x, 0, 0}, {x + 1, kWidth, 1 + kArm});
+    for (const int y : {0, kWidth - 1}) chair.box({x, y, -kLeg}, {x + 1, y + 1, 0});
+  }
+  for (const double noise : {0.0, 0.1}) {
+    CAPTURE(noise);
+    const Solid given(jittered(to_mesh(boundary(chair, 2)), 3, noise));
+    std::size_t feet = 0, backs = 0, arms = 0;
+    for (const LimbTip& tip : tips_of(given)) {
+      const Vector3 x = given.model(tip.target);
+      if (x.z() < 0) {
+        ++feet;
+      } else if (x.y() > kWidth - 1) {
+        ++backs;
+        CHECK(std::abs(x.x() - 0.5 * kWidth) < 0.1 * kWidth);
+        CHECK(x.z() > kBack);
+      } else {
+        ++arms;
+        CHECK(std::abs(std::abs(x.x() - 0.5 * kWidth) - 0.5 * (kWidth - 1)) < 0.3);
+        CHECK(x.z() > kArm - 1);
+        CHECK(x.y() < 0.5 * kWidth);
+      }
+    }
+    CHECK(feet == 4);
+    CHECK(backs == 1);
+    CHECK(arms == 2);
+  }
+}
+
+TEST_CASE("Both flanges of a bent sheet are limbs, and the walls of an open box are none") {
+  constexpr int kWidth = 10, kShort = 8, kLong = 14;
+  VoxelSolid sheet;
+  sheet.box({0, 0, 0}, {kWidth, 1, kShort});
+  sheet.box({0, 0, 0}, {kWidth, kLong, 1});
+  const Solid bent(to_mesh(boundary(sheet, 2)));
+  std::size_t ends = 0;
+  for (const LimbTip& tip : tips_of(bent)) {
+    const Vector3 x = bent.model(tip.target);
+    CHECK(std::abs(x.x() - 0.5 * kWidth) < 0.1 * kWidth);
+    CHECK((x.z() > kShort - 1 || x.y() > kLong - 1));
+    ++ends;
+  }
+  CHECK(ends == 2);
+
+  VoxelSolid box;
+  box.box({0, 0, 0}, {kWidth, kWidth, 1});
+  for (const int at : {0, kWidth - 1}) {
+    box.box({at, 0, 0}, {at + 1, kWidth, kShort});
+    box.box({0, at, 0}, {kWidth, at + 1, kShort});
+  }
+  for (const LimbTip& tip : tips_of(Solid(to_mesh(boundary(box, 2))))) CHECK(tip.kind == TipKind::kWayEnd);
 }
 
 TEST_CASE("A tube's surface lies at half of its depth, and its mouth is its girth; a corner's lies deeper") {

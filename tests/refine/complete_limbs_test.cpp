@@ -14,6 +14,7 @@
 #include "mspskel/refine/detail/equal_limbs.h"
 #include "mspskel/refine/prune_branches.h"
 #include "mspskel/refine/refine_arcs.h"
+#include "mspskel/samples/blocks.h"
 #include "mspskel/samples/polygonise.h"
 #include "mspskel/samples/samples.h"
 #include "mspskel/samples/skin_graph.h"
@@ -501,6 +502,31 @@ TEST_CASE("Fins on a plain body get an arc each, to their middle") {
       CHECK(nearest < 0.3);
     }
   }
+}
+
+TEST_CASE("Plates get an arc each where their roots are rounded, to the middles of their ends") {
+  // Three that meet in a line along x, with fillets as wide as they are thick.
+  const std::vector<Vector3> ends{Vector3(0, 3, 0), Vector3(0, -3, 0), Vector3(0, 0, 3)};
+  ImplicitSolid tee;
+  tee.low = Vector3(-2.1, -3.3, -0.4);
+  tee.high = Vector3(2.1, 3.3, 3.3);
+  tee.value = [](const Vector3& x) {
+    constexpr double kThick = 0.4, kFillet = 0.4;
+    const double flat = rounded_box_distance(x, {1.8, 3, 0.5 * kThick}, 0.1);
+    const double web = rounded_box_distance(x - Vector3(0, 0, 1.5), {1.8, 0.5 * kThick, 1.5}, 0.1);
+    const double near = std::max(kFillet - std::abs(flat - web), 0.0);
+    return std::min(flat, web) - near * near / (4 * kFillet);
+  };
+  const Solid solid(to_mesh(polygonise(tee, 5000, 0.2)));
+  ArcGraph graph = straight_axis(solid, -1.5, 1.5);
+  std::vector<LimbTip> tips;
+  CHECK(complete_limbs(graph, solid.surface, solid.hierarchy, tips, {}, 0.01) == 3);
+  REQUIRE(tips.size() == 3);
+  for (const Vector3& end : ends)
+    CHECK(std::any_of(tips.begin(), tips.end(),
+                      [&](const LimbTip& tip) { return (solid.model(tip.target) - end).norm() < 0.5; }));
+  // And none is added where they have one.
+  CHECK(complete_limbs(graph, solid.surface, solid.hierarchy, tips, {}, 0.01) == 0);
 }
 
 TEST_CASE("The foot of a goblet has a rim, and no end beyond its middle") {

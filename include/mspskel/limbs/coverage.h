@@ -17,6 +17,7 @@ struct UncoveredPart {
   Vector3 position = Vector3::Zero();  // of that vertex, model units
   double depth = 0.0;                  // of the part, model units
   double widths = 0.0;                 // its length over its width: depth divided by twice the mean radius
+  bool is_plate = false;               // thin and wide, and no arc leads into it
 };
 
 // A part of so many widths is one that people would call a limb. A right-angled corner of a plate has 1.6,
@@ -27,14 +28,15 @@ struct CoverageOptions {
   double smallest = 0.015;  // less deep parts are none; a share of their component's diagonal. [0, 1]
 };
 
-// The parts of at least kMissedWidths, the longest for its width first. With f the distance of the surface
-// outside the union of the maximal balls round the skeleton's nodes (those of the same component, in its
-// solid), a part is what hangs together beyond a
-// level of f, from a maximum down to where it is most slender (pi depth^2 / area, which is length over width
-// of a tube) before it meets a farther part: the measure that tells limbs, with another distance. The area is
-// that of all triangles that a part touches, so few triangles rather hide a part than make one up. Solids
-// and snapshot belong together; radii are measured anew. O((vertices + nodes) log nodes), parallel; the
-// result does not depend on the threads. Throws Cancelled if the callback asks to stop.
+// The parts of at least kMissedWidths, and the plates that find_limb_tips would tell as limbs and that have
+// no arc in their outer halves, the longest for its width first. With f the distance of the surface outside
+// the union of the maximal balls round the skeleton's nodes (those of the same component, in its solid), a
+// part is what hangs together beyond a level of f, from a maximum down to where it is most slender (pi
+// depth^2 / area, which is length over width of a tube) before it meets a farther part: the measure that
+// tells limbs, with another distance. The area is that of all triangles that a part touches, so few triangles
+// rather hide a part than make one up. Solids and snapshot belong together; radii are measured anew.
+// O((vertices + nodes) log nodes), parallel; the result does not depend on the threads. Throws Cancelled if
+// the callback asks to stop.
 std::vector<UncoveredPart> find_uncovered_parts(const SurfaceSnapshot& surface,
                                                 const SolidHierarchies& solids, const CurveSkeleton& skeleton,
                                                 const CoverageOptions& options = {},

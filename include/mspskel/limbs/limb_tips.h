@@ -46,12 +46,12 @@ struct LimbTip {
 // another part), be open at one place only (what goes round a handle is open at two; what of it ends before
 // may be a limb), and satisfy is_limb; in a component that has limbs or whose body ends in tips, is_ear will
 // do. None lies in the wall of a shell.
-// A plate that stands on the rest along a straight root, as the back of a chair does, is one limb or none by
-// its height on that root, and its corners are none. A body that is longer than wide has tips where it ends
-// and no limb does, and so has one with handles and without limbs along the axis that stands apart. Where a
-// tube was cut off, its flat cap is an end, however near the next joint. In a component of genus 0 without
-// limbs the ends of its longest way are tips. Cost: a segment query a vertex, a
-// few rays a face of plates, O(vertices log vertices).
+// A plate that reaches beyond its root to one side, as the back or an arm of a chair does, is one limb or
+// none by its height on that root, and its corners are none. A body that is longer than wide has tips where
+// it ends and no limb does, and so has one with handles and without limbs along the axis that stands apart.
+// Where a tube was cut off, its flat cap is an end, however near the next joint. In a component of genus 0
+// without limbs the ends of its longest way are tips. Cost: a segment query a vertex, a few rays a face of
+// plates, O(vertices log vertices).
 std::vector<LimbTip> find_limb_tips(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
                                     const VertexSlices& slices, const LimbOptions& options,
                                     const Execution& execution = {});

@@ -230,7 +230,7 @@ inline void add_flat_ends(const SurfaceSnapshot& surface, const std::vector<Flat
 // A plate is one limb or none. What was told by a corner of it goes, be that the corner alone or most of the
 // plate, as it reaches from afar, and so does what is less deep than the plate is thick. Where it stands out
 // it takes the place of a longer limb, too, of which it is the end. Other limbs that end in it stay, and
-// stand for it.
+// stand for it, as any do where no crease shows how deep it is.
 inline void judge_as_one(Plate plate, std::vector<FoundLimb>& limbs) {
   constexpr double kSlack = 1.2, kMost = 0.6, kAll = 1.25;  // of the plate's depth
   const std::vector<Index>& part = plate.limb.part;
@@ -246,7 +246,7 @@ inline void judge_as_one(Plate plate, std::vector<FoundLimb>& limbs) {
            is_slab_corner(m.depth, m.depth_over_mouth, m.slenderness, thickness, kSlack);
   };
   const auto goes = [&](const FoundLimb& limb) { return ends_in_plate(limb) && is_corner(limb); };
-  limbs.erase(std::remove_if(limbs.begin(), limbs.end(), goes), limbs.end());
+  if (plate.from_crease) limbs.erase(std::remove_if(limbs.begin(), limbs.end(), goes), limbs.end());
   if (!plate.stands_out || std::any_of(limbs.begin(), limbs.end(), ends_in_plate)) return;
   plate.limb.tip.plate = part;
   limbs.push_back(std::move(plate.limb));
@@ -263,7 +263,7 @@ MSPSKEL_INLINE std::vector<LimbTip> find_limb_tips(const SurfaceSnapshot& surfac
   const std::vector<double> distance = inner_distances(surface, ways, solid, middle, execution);
   std::vector<detail::FoundLimb> limbs =
       detail::LimbTipSearch(surface, solid, slices, options, distance, execution.progress).run();
-  for (detail::Plate& plate : detail::PlateSearch(surface, solid, options, execution.progress).run())
+  for (detail::Plate& plate : detail::PlateSearch(surface, solid, options, execution.progress).run(distance))
     detail::judge_as_one(std::move(plate), limbs);
   constexpr double kLobe = 0.45;  // half of a tube and of a plank, a third of a disc round its stem
   std::vector<LimbTip> tips;

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -10,6 +12,7 @@
 #include "mspskel/arcs/detail/graph_points.h"
 #include "mspskel/base/linkage.h"
 #include "mspskel/base/watch.h"
+#include "mspskel/limbs/detail/bare_plates.h"
 #include "mspskel/refine/detail/arc_leaves.h"
 #include "mspskel/refine/detail/arc_sections.h"
 #include "mspskel/refine/detail/equal_limbs.h"
@@ -41,6 +44,7 @@ class LimbCompletion {
     constexpr int kRounds = 8;
     constexpr double kLeft = 0.25;  // of its reach: less is left where another arc stands for the part
     Index added = reach_tips();
+    added += reach_plates();
     mark_plates();
     for (int round = 0; round < kRounds; ++round) {
       // All are told before any gets its arc, whose balls may come near the others: equal limbs are told
@@ -69,15 +73,45 @@ class LimbCompletion {
   // balls of the loop.
   Index reach_tips() {
     const auto at = graph_.incidence();
-    std::vector<std::pair<double, Index>> bare;
+    // The deepest first. Of those as deep but for rounding the nearest: ways to what lies beyond it would
+    // start at its end, across the gap.
+    constexpr double kPerFold = 100;  // depths that differ by less than a hundredth
+    std::vector<std::tuple<double, double, Index>> bare;
     const std::vector<std::size_t> leaf = leaves_of_tips(graph_, ArcLeaves(graph_, at), tips_);
     for (std::size_t i = 0; i < tips_.size(); ++i)
       if (leaf[i] == kNoLeaf && tips_[i].kind != TipKind::kWayEnd)
-        bare.push_back({-tips_[i].measures.depth, static_cast<Index>(i)});
+        bare.emplace_back(-std::round(kPerFold * std::log(tips_[i].measures.depth)),
+                          uncovered_.distance(tips_[i].vertex), static_cast<Index>(i));
     std::sort(bare.begin(), bare.end());
     Index added = 0;
-    for (const auto& [depth, i] : bare)
+    for (const auto& [depth, distance, i] : bare)
       if (uncovered_.distance(tips_[i].vertex) > uncovered(tips_[i]) && reach_tip(tips_[i])) ++added;
+    return added;
+  }
+
+  // Arcs to the plates that none leads into. Where a limb was told before, reach_tips has done what it can.
+  Index reach_plates() {
+    std::vector<Vector3> points;
+    for (Index h = 0; h < graph_.hub_count(); ++h)
+      if (graph_.hub_alive[h]) points.push_back(graph_.hub_position[h]);
+    for (const Arc& arc : graph_.arcs) points.insert(points.end(), arc.points.begin(), arc.points.end());
+    Index added = 0;
+    for (const Plate& plate : bare_plates(surface_, solid_, options_, uncovered_.distances(), points,
+                                          least_protrusion(), execution_.progress)) {
+      const std::vector<Index>& part = plate.limb.part;
+      const auto ends_there = [&](const LimbTip& tip) {
+        return (tip.kind == TipKind::kLimb || tip.kind == TipKind::kEar) &&
+               std::binary_search(part.begin(), part.end(), tip.vertex);
+      };
+      if (std::any_of(tips_.begin(), tips_.end(), ends_there)) continue;
+      LimbTip tip = plate.limb.tip;
+      tip.plate = plate.limb.part;
+      tip.position = surface_.position[tip.vertex];
+      keep_target_well_inside(tip, solid_);
+      if (!reach_tip(tip)) continue;
+      tips_.push_back(std::move(tip));
+      ++added;
+    }
     return added;
   }
 

@@ -46,6 +46,7 @@ class UncoveredSurface {
 
   // How far a vertex is beyond all balls, at most 0 where done with.
   double distance(Index v) const { return distance_[v]; }
+  const std::vector<double>& distances() const { return distance_; }
   // The radius of the ball that it is least beyond.
   double carrier(Index v) const { return carrier_[v]; }
 
