@@ -33,9 +33,11 @@ class BodyEnds {
       for (const Index v : limb.part) in_limb_[v] = 1;
     }
     for (Index v = 0; v < surface.vertex_count(); ++v) {
-      if (in_limb_[v] || surface.vertex_halfedge[v] == kNone) continue;
-      const Vector3& x = surface.position[v];
+      if (surface.vertex_halfedge[v] == kNone) continue;
       Body& body = body_[surface.component[v]];
+      body.area_with_limbs += surface.vertex_area[v];
+      if (in_limb_[v]) continue;
+      const Vector3& x = surface.position[v];
       body.area += surface.vertex_area[v];
       body.centre += surface.vertex_area[v] * x;
       body.second += surface.vertex_area[v] * x * x.transpose();
@@ -64,7 +66,9 @@ class BodyEnds {
     const std::optional<Vector3> away = away_from_limbs(component);
     if (!away) return ends;
     add_end(component, *away, ends);
-    if (ends.empty() && others == 0 && !loops) ends.push_back(end_at(component, body.centre));
+    if (ends.empty() && others == 0 && !loops &&
+        (body.limbs == 1 ? is_flat(body.centre, *away) : is_far_from_limbs(component)))
+      ends.push_back(end_at(component, body.centre));
     return ends;
   }
 
@@ -72,6 +76,7 @@ class BodyEnds {
   struct Body {
     Index limbs = 0;
     double area = 0;
+    double area_with_limbs = 0;
     Vector3 centre = Vector3::Zero();
     Eigen::Matrix3d second = Eigen::Matrix3d::Zero();  // ∫ x xᵀ
   };
@@ -108,6 +113,25 @@ class BodyEnds {
     if (!(sum.norm() > 0) || std::any_of(directions.begin(), directions.end(), is_beside))
       return std::nullopt;
     return -axis;
+  }
+
+  // Whether the ball in the middle of a body all but touches the surface ahead.
+  bool is_flat(const Vector3& centre, const Vector3& ahead) const {
+    constexpr double kFlat = 1.15;
+    return solid_.first_hit(centre, ahead, kFlat * solid_.distance(centre)).has_value();
+  }
+
+  // Where several limbs meet in the middle of the body, or it is but the fold between them, their arcs meet
+  // without an end of its own.
+  bool is_far_from_limbs(Index component) const {
+    constexpr double kLeastShare = 0.2;
+    const Body& body = body_[component];
+    if (body.area < kLeastShare * body.area_with_limbs) return false;
+    const Vector3& centre = body.centre;
+    const double least = kLonger * solid_.distance(centre);
+    return std::none_of(limbs_.begin(), limbs_.end(), [&](const FoundLimb& limb) {
+      return surface_.component[limb.tip.vertex] == component && (limb.root - centre).norm() < least;
+    });
   }
 
   // The end must be at least so many radii of the ball in the middle away.

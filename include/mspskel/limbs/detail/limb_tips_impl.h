@@ -177,7 +177,7 @@ inline void add_body_ends(const SurfaceSnapshot& surface, const std::vector<bool
   std::vector<bool> has_ears(shells.size(), false);
   for (Index c = 0; c < surface.component_count; ++c) {
     has_ears[c] = bodies.limb_count(c) > 0;
-    if (!has_ears[c] && (shells[c] || twice_euler[c] == 4)) continue;
+    if (shells[c] || (!has_ears[c] && twice_euler[c] == 4)) continue;
     for (LimbTip& end : bodies.run(c, twice_euler[c] != 4)) {
       has_ears[c] = true;
       tips.push_back(std::move(end));
