@@ -13,8 +13,8 @@ namespace mspskel {
 // end when none removes an arc.
 Index prune_branches(ArcGraph& graph, const std::vector<LimbTip>& tips);
 
-// Removes leaf arcs whose tip lies in the ball of their joint, other than those that end in a flat end: a tube
-// may be cut off just beside a joint. Returns their number.
+// Removes leaf arcs whose tip lies in the ball of their joint, other than those that end in a flat end: a
+// tube may be cut off just beside a joint. Returns their number.
 Index remove_spurs(ArcGraph& graph, const BoundingVolumeHierarchy& solid,
                    const std::vector<LimbTip>& tips = {});
 
