@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
+#include "limbs/armchair.h"
 #include "mspskel/extract_skeleton.h"
 #include "mspskel/limbs/detail/slender_parts.h"
 #include "mspskel/samples/shapes.h"
@@ -84,17 +85,10 @@ TEST_CASE("Blocks and balls and plates have nothing that people would call a lim
 }
 
 TEST_CASE("Plates that no arc leads into are told, however wide they are, and no others") {
-  constexpr int kWidth = 10, kBack = 10, kArm = 6, kLeg = 6;
-  VoxelSolid chair;
-  chair.box({0, 0, 0}, {kWidth, kWidth, 1});
-  chair.box({0, kWidth - 1, 0}, {kWidth, kWidth, 1 + kBack});
-  for (const int x : {0, kWidth - 1}) {
-    chair.box({x, 0, 0}, {x + 1, kWidth, 1 + kArm});
-    for (const int y : {0, kWidth - 1}) chair.box({x, y, -kLeg}, {x + 1, y + 1, 0});
-  }
+  using namespace armchair;
   for (const int fine : {1, 2}) {
     CAPTURE(fine);
-    const SurfaceSnapshot surface = make_snapshot(to_mesh(boundary(chair, fine)));
+    const SurfaceSnapshot surface = make_snapshot(to_mesh(boundary(cells(), fine)));
     // Of the legs and across the seat.
     CurveSkeleton skeleton;
     const auto add = [&](const Vector3& from, const Vector3& to) {

@@ -11,6 +11,7 @@
 #include <set>
 #include <string>
 
+#include "limbs/armchair.h"
 #include "mspskel/extract_skeleton.h"
 #include "mspskel/limbs/detail/part_level.h"
 #include "mspskel/limbs/detail/part_shape.h"
@@ -325,17 +326,10 @@ TEST_CASE("A fin of sixteen triangles is a plate, since no gap of it is as large
 }
 
 TEST_CASE("The back and the arms of an armchair are limbs, though their roots go round corners") {
-  constexpr int kWidth = 10, kBack = 10, kArm = 6, kLeg = 6;
-  VoxelSolid chair;
-  chair.box({0, 0, 0}, {kWidth, kWidth, 1});
-  chair.box({0, kWidth - 1, 0}, {kWidth, kWidth, 1 + kBack});
-  for (const int x : {0, kWidth - 1}) {
-    chair.box({x, 0, 0}, {x + 1, kWidth, 1 + kArm});
-    for (const int y : {0, kWidth - 1}) chair.box({x, y, -kLeg}, {x + 1, y + 1, 0});
-  }
+  using namespace armchair;
   for (const double noise : {0.0, 0.1}) {
     CAPTURE(noise);
-    const Solid given(jittered(to_mesh(boundary(chair, 2)), 3, noise));
+    const Solid given(jittered(to_mesh(boundary(cells(), 2)), 3, noise));
     std::size_t feet = 0, backs = 0, arms = 0;
     for (const LimbTip& tip : tips_of(given)) {
       const Vector3 x = given.model(tip.target);

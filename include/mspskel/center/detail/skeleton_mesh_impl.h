@@ -6,7 +6,7 @@
 
 #include "mspskel/base/even_directions.h"
 #include "mspskel/base/linkage.h"
-#include "mspskel/mesh/areas_per_handle.h"
+#include "mspskel/mesh/component_areas.h"
 
 namespace mspskel {
 namespace detail::slice_centre {

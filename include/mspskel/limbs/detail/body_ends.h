@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "mspskel/limbs/detail/limb_search.h"
+#include "mspskel/mesh/component_areas.h"
 
 namespace mspskel {
 namespace detail {
@@ -27,17 +28,16 @@ class BodyEnds {
         solid_(solid),
         limbs_(limbs),
         body_(static_cast<std::size_t>(surface.component_count)),
+        area_with_limbs_(component_areas(surface)),
         in_limb_(surface.position.size(), 0) {
     for (const FoundLimb& limb : limbs) {
       if (limb.tip.kind == TipKind::kLimb) ++body_[surface.component[limb.tip.vertex]].limbs;
       for (const Index v : limb.part) in_limb_[v] = 1;
     }
     for (Index v = 0; v < surface.vertex_count(); ++v) {
-      if (surface.vertex_halfedge[v] == kNone) continue;
-      Body& body = body_[surface.component[v]];
-      body.area_with_limbs += surface.vertex_area[v];
-      if (in_limb_[v]) continue;
+      if (in_limb_[v] || surface.vertex_halfedge[v] == kNone) continue;
       const Vector3& x = surface.position[v];
+      Body& body = body_[surface.component[v]];
       body.area += surface.vertex_area[v];
       body.centre += surface.vertex_area[v] * x;
       body.second += surface.vertex_area[v] * x * x.transpose();
@@ -76,7 +76,6 @@ class BodyEnds {
   struct Body {
     Index limbs = 0;
     double area = 0;
-    double area_with_limbs = 0;
     Vector3 centre = Vector3::Zero();
     Eigen::Matrix3d second = Eigen::Matrix3d::Zero();  // ∫ x xᵀ
   };
@@ -126,7 +125,7 @@ class BodyEnds {
   bool is_far_from_limbs(Index component) const {
     constexpr double kLeastShare = 0.2;
     const Body& body = body_[component];
-    if (body.area < kLeastShare * body.area_with_limbs) return false;
+    if (body.area < kLeastShare * area_with_limbs_[component]) return false;
     const Vector3& centre = body.centre;
     const double least = kLonger * solid_.distance(centre);
     return std::none_of(limbs_.begin(), limbs_.end(), [&](const FoundLimb& limb) {
@@ -187,8 +186,9 @@ class BodyEnds {
   const SurfaceSnapshot& surface_;
   const BoundingVolumeHierarchy& solid_;
   const std::vector<FoundLimb>& limbs_;
-  std::vector<Body> body_;             // per component
-  std::vector<std::uint8_t> in_limb_;  // per vertex
+  std::vector<Body> body_;               // per component
+  std::vector<double> area_with_limbs_;  // per component
+  std::vector<std::uint8_t> in_limb_;    // per vertex
 };
 
 }  // namespace detail

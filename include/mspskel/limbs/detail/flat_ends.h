@@ -11,6 +11,7 @@
 
 #include "mspskel/base/watch.h"
 #include "mspskel/limbs/detail/growing_parts.h"
+#include "mspskel/limbs/detail/sharp_turn.h"
 #include "mspskel/limbs/limb_tips.h"
 
 namespace mspskel {
@@ -65,7 +66,7 @@ class FlatEndSearch {
     std::vector<Index> faces;
     Rim rim;
     Vector3 normal = Vector3::Zero();
-    double radius = 0;
+    double area = 0, radius = 0;
     double roundness = 0;  // 1 for a circle, 0.785 for a square, 0.33 for a ring of twice the hole's width
   };
 
@@ -103,10 +104,11 @@ class FlatEndSearch {
     for (const Index f : cap.faces) tried_[f] = true;
     cap.rim = rim_of(cap.faces, axis);
     const Vector3 area = area_vector(cap.faces);
-    if (cap.rim.halfedges.size() < kLeastRim || !(area.norm() > 0)) return std::nullopt;
+    cap.area = area.norm();
+    if (cap.rim.halfedges.size() < kLeastRim || !(cap.area > 0)) return std::nullopt;
     cap.normal = area.normalized();
-    cap.radius = 2 * area.norm() / cap.rim.length;
-    cap.roundness = 4 * kPi * area.norm() / (cap.rim.length * cap.rim.length);
+    cap.radius = 2 * cap.area / cap.rim.length;
+    cap.roundness = 4 * kPi * cap.area / (cap.rim.length * cap.rim.length);
     if (!is_flat(cap)) return std::nullopt;
     if (cap.roundness >= kSlim)
       for (const Index f : cap.faces) in_cap_[f] = true;
@@ -120,7 +122,7 @@ class FlatEndSearch {
     constexpr double kLeastShare =
         0.005;  // of the component's area: what is thinner and a limb is told as one
     const Index component = surface_.component[surface_.origin[3 * cap.faces.front()]];
-    if (area_vector(cap.faces).norm() < kLeastShare * 2 * half_area_[component]) return true;
+    if (cap.area < kLeastShare * 2 * half_area_[component]) return true;
     if (cap.roundness >= kRounder) return cap.rim.halfedges.size() < kLeastRim;
     return cap.roundness < kSlim ||
            std::any_of(cap.rim.halfedges.begin(), cap.rim.halfedges.end(),
@@ -137,9 +139,7 @@ class FlatEndSearch {
   // Whether the surface turns off sharply, and outward, across a half-edge of a face that lies across an
   // axis.
   bool turns_off(Index h, const Vector3& axis) const {
-    const Vector3& beyond = normal_[SurfaceSnapshot::face(surface_.twin[h])];
-    const Vector3 along = surface_.position[surface_.target(h)] - surface_.position[surface_.origin[h]];
-    return beyond.dot(axis) < kSharp && axis.cross(beyond).dot(along) > 0;
+    return sharp_turn(surface_, h, axis, normal_[SurfaceSnapshot::face(surface_.twin[h])]) > 0;
   }
 
   bool leads_out(Index h) const { return reached_[SurfaceSnapshot::face(surface_.twin[h])] != round_; }
@@ -221,19 +221,15 @@ class FlatEndSearch {
     end.target = cap.rim.centre - kAhead * cap.radius * cap.normal;
     end.measures.depth = cap.radius;
     end.measures.half_width = 0.25 * cap.radius;  // as that of a body's end: the arc is to end in the middle
-    for (const Index f : cap.faces)
-      end.cap.insert(end.cap.end(), surface_.origin.begin() + 3 * f, surface_.origin.begin() + 3 * f + 3);
-    std::sort(end.cap.begin(), end.cap.end());
-    end.cap.erase(std::unique(end.cap.begin(), end.cap.end()), end.cap.end());
+    end.cap = vertices_of(surface_, cap.faces);
     const auto away = [&](Index v) { return (surface_.position[v] - cap.rim.centre).squaredNorm(); };
     end.vertex = *std::min_element(end.cap.begin(), end.cap.end(),
                                    [&](Index v, Index w) { return away(v) < away(w); });
     return flat;
   }
 
-  static constexpr double kSharp = 0.64;  // the cosine of 50 degrees
-  static constexpr double kSlim = 0.6;    // roundness of a rectangle 2.5 times as long as wide, or of an L
-  static constexpr double kAhead = 0.1;   // radii before the surface
+  static constexpr double kSlim = 0.6;   // roundness of a rectangle 2.5 times as long as wide, or of an L
+  static constexpr double kAhead = 0.1;  // radii before the surface
 
   const SurfaceSnapshot& surface_;
   const BoundingVolumeHierarchy& solid_;

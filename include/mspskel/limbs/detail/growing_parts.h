@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "mspskel/mesh/component_areas.h"
 #include "mspskel/mesh/surface_snapshot.h"
 
 namespace mspskel {
@@ -12,10 +13,19 @@ namespace detail {
 
 // Half of the area of each component: a part that has more is the body.
 inline std::vector<double> half_areas_of_components(const SurfaceSnapshot& surface) {
-  std::vector<double> half(static_cast<std::size_t>(surface.component_count), 0.0);
-  for (Index v = 0; v < surface.vertex_count(); ++v)
-    if (surface.vertex_halfedge[v] != kNone) half[surface.component[v]] += 0.5 * surface.vertex_area[v];
+  std::vector<double> half = component_areas(surface);
+  for (double& area : half) area *= 0.5;
   return half;
+}
+
+// The vertices of some faces, ascending.
+inline std::vector<Index> vertices_of(const SurfaceSnapshot& surface, const std::vector<Index>& faces) {
+  std::vector<Index> vertices;
+  for (const Index f : faces)
+    vertices.insert(vertices.end(), surface.origin.begin() + 3 * f, surface.origin.begin() + 3 * f + 3);
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  return vertices;
 }
 
 // Parts begin at the maxima of the distance, grow as it falls, and meet at saddles, where the one with the

@@ -297,7 +297,7 @@ class PlateGrowth {
     const PlaneHull hull(root->vertices, slab.across);
     Plate plate;
     FoundLimb& limb = plate.limb;
-    limb.part = vertices_of(faces);
+    limb.part = vertices_of(surface_, faces);
     limb.root = root->middle;
     double area = 0;
     for (const Index f : faces) area += surface_.face_area(f);
@@ -429,15 +429,6 @@ class PlateGrowth {
       longest = std::max(longest, length);
     }
     return longest;
-  }
-
-  std::vector<Index> vertices_of(const std::vector<Index>& faces) const {
-    std::vector<Index> vertices;
-    for (const Index f : faces)
-      vertices.insert(vertices.end(), surface_.origin.begin() + 3 * f, surface_.origin.begin() + 3 * f + 3);
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-    return vertices;
   }
 
   // The half width of a plate is that across it: centring moves an arc freely along it, so that only this

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mspskel/limbs/detail/plate_growth.h"
+#include "mspskel/limbs/detail/sharp_turn.h"
 
 namespace mspskel {
 namespace detail {
@@ -38,11 +39,8 @@ class PlateSearch {
 
  private:
   bool is_sharp_inward(Index h) const {
-    constexpr double kSharp = 0.64;  // the cosine of 50 degrees
-    const Vector3 &a = growth_.normal(SurfaceSnapshot::face(h)),
-                  &b = growth_.normal(SurfaceSnapshot::face(surface_.twin[h]));
-    const Vector3 along = surface_.position[surface_.target(h)] - surface_.position[surface_.origin[h]];
-    return a.dot(b) < kSharp && a.cross(b).dot(along) < 0;
+    return sharp_turn(surface_, h, growth_.normal(SurfaceSnapshot::face(h)),
+                      growth_.normal(SurfaceSnapshot::face(surface_.twin[h]))) < 0;
   }
 
   // The half-edges of sharp inward edges, each with the length of the crease that it is a part of: of all

@@ -6,7 +6,7 @@
 #include "mspskel/base/linkage.h"
 #include "mspskel/base/value_at_rank.h"
 #include "mspskel/base/watch.h"
-#include "mspskel/mesh/areas_per_handle.h"
+#include "mspskel/mesh/component_areas.h"
 #include "mspskel/mesh/detail/solid_moments.h"
 #include "mspskel/solid/detail/inward_chord.h"
 
@@ -22,9 +22,7 @@ MSPSKEL_INLINE std::vector<bool> find_shells(const SurfaceSnapshot& surface,
   std::vector<std::vector<Index>> vertices(shell.size());
   for (Index v = 0; v < surface.vertex_count(); ++v)
     if (slices.valid[v]) vertices[surface.component[v]].push_back(v);
-  std::vector<double> area(shell.size(), 0.0);
-  for (Index v = 0; v < surface.vertex_count(); ++v)
-    if (surface.vertex_halfedge[v] != kNone) area[surface.component[v]] += surface.vertex_area[v];
+  const std::vector<double> area = component_areas(surface);
   const std::vector<detail::SolidMoments> moments = detail::solid_moments(surface);
   const std::vector<double> of_a_handle = areas_per_handle(surface);
   for (std::size_t c = 0; c < shell.size(); ++c) {
