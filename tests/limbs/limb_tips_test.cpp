@@ -21,6 +21,7 @@
 #include "mspskel/mesh/subdivide_surface.h"
 #include "mspskel/samples/blocks.h"
 #include "mspskel/samples/skin_graph.h"
+#include "support/pipes.h"
 #include "support/questions.h"
 #include "support/solids.h"
 #include "topology/voxel_solids.h"
@@ -323,6 +324,51 @@ TEST_CASE("A fin of sixteen triangles is a plate, since no gap of it is as large
   REQUIRE(plates.size() == 1);
   CHECK(plates.front().stands_out);
   CHECK(plates.front().limb.part.size() == 12);
+}
+
+TEST_CASE("Tubes that fork in one plane are no plate, however wide the fork is") {
+  for (const double angle : {0.35, 0.6, 0.9}) {
+    const Vector3 one(std::sin(angle), 0, std::cos(angle)), other(-one.x(), 0, one.z());
+    const Solid fork(united(
+        {{{0, 0, -3}, {0, 0, 0.1}, 0.35}, {{0, 0, 0}, 3 * one, 0.15}, {{0, 0, 0}, 3 * other, 0.15}}, 0.1));
+    CAPTURE(angle);
+    CHECK(detail::PlateSearch(fork.surface, fork.hierarchy, LimbOptions(), {})
+              .run(std::vector<double>(fork.surface.position.size(), 0.0))
+              .empty());
+    CHECK(tips_of(fork).size() == 3);
+  }
+}
+
+TEST_CASE("A stub near the end of a pipe is measured without the pipe, which would be slender again") {
+  const Solid solid(united({{{-4, 0, 0}, {4, 0, 0}, 1.0}, {{-2.8, 0, 0}, {-2.8, 0, 2.6}, 0.6}}, 0.15));
+  int stubs = 0;
+  for (const LimbTip& tip : tips_of(solid)) {
+    if (solid.model(solid.surface.position[tip.vertex]).z() < 1.5) continue;
+    ++stubs;
+    CHECK(tip.kind == TipKind::kLimb);
+    CHECK(tip.measures.depth * solid.surface.frame.scale < 2);
+  }
+  CHECK(stubs == 1);
+}
+
+TEST_CASE("An arm that ends in a knife's edge is a limb, as what there is of it behind the edge tells") {
+  BallGraph graph;
+  graph.blend = 0.1;
+  graph.nodes = {{{0, 0, 0}, 0.5}, {{4, 0, 0}, 0.2}, {{-2, 3.4, 0}, 0.3}, {{-2, -3.4, 0}, 0.3}};
+  graph.edges = {{0, 1}, {0, 2}, {0, 3}};
+  for (const double edge : {2.5, 3.0, 3.5}) {
+    CAPTURE(edge);
+    PolygonSoup soup = skin_graph(graph, 6000);
+    for (Vector3& p : soup.points)
+      if (p.x() > 1.5) {
+        p.y() *= std::pow(1 - (p.x() - 1.5) / 2.8, 2);
+        p.z() *= std::max(1e-6, 1 - (p.x() - 1.5) / (edge - 1.5));
+      }
+    const Solid solid(to_mesh(soup));
+    const std::vector<LimbTip> tips = tips_of(solid);
+    CHECK(std::count_if(tips.begin(), tips.end(),
+                        [](const LimbTip& tip) { return tip.kind == TipKind::kLimb; }) == 3);
+  }
 }
 
 TEST_CASE("The back and the arms of an armchair are limbs, though their roots go round corners") {

@@ -82,7 +82,9 @@ class LimbTipSearch {
     Index euler = 0;   // its Euler characteristic: 1 while it is a disc
     Level slenderest;  // of all levels
     Level slenderest_disc;
-    double own = 0;  // where it first met another limb
+    double deepest = 0;  // the last level at which it is as slender as a limb; 0 if there is none
+    double own = 0;      // where it first met another limb
+    Level neck;          // where it leaves what carries it, which would be a part of the same limb farther in
   };
   using Part = GrowingParts<Notes>::Part;
 
@@ -113,7 +115,14 @@ class LimbTipSearch {
     const bool tells = twig ? slenderness >= kFinger * options_.slenderness && is_twig(level)
                             : slenderness * notes.vertices >= kLeastEvidence;
     if (!tells) return;
+    // A stub at the end of a pipe: the limb that ends with the pipe as well is slender again.
+    constexpr double kWidens = 0.5;
+    if (notes.slenderest.slenderness >= options_.slenderness &&
+        slenderness < kWidens * notes.slenderest.slenderness && notes.neck.slenderness == 0 && notes.own == 0)
+      notes.neck = notes.slenderest;
     if (slenderness > notes.slenderest.slenderness) notes.slenderest = {slenderness, at};
+    if (slenderness >= options_.slenderness && level.depth > kLeastTipDepth * options_.smallest)
+      notes.deepest = at;
     if (notes.euler == 1 && slenderness > notes.slenderest_disc.slenderness)
       notes.slenderest_disc = {slenderness, at};
   }
@@ -146,14 +155,17 @@ class LimbTipSearch {
   // bend is none.
   bool finish(const Part& part) {
     const Notes& notes = part.notes;
-    return add_limb(part.top, notes.slenderest, notes.own) ||
-           add_limb(part.top, notes.slenderest_disc, notes.own) || notes.own > 0;
+    return add_limb(part.top, notes.neck, notes) || add_limb(part.top, notes.slenderest, notes) ||
+           add_limb(part.top, notes.slenderest_disc, notes) || notes.own > 0;
   }
 
-  // Whether the part beyond a level is a limb or an ear, which is noted then.
-  bool add_limb(Index top, const Level& level, double own) {
+  // Whether the part beyond a level is a limb or an ear, which is noted then. A tip as sharp as a knife is a
+  // flap: what more there is of the part tells.
+  bool add_limb(Index top, const Level& level, const Notes& notes) {
     if (level.slenderness == 0) return false;
-    std::optional<FoundLimb> found = measure(top, level.distance, own);
+    std::optional<FoundLimb> found = measure(top, level.distance, notes.own);
+    if (found && is_flap(found->tip.measures) && notes.deepest > 0)
+      found = measure(top, notes.deepest, notes.own);
     if (!found) return false;
     if (!is_limb(found->tip.measures, options_)) {
       if (!is_ear(found->tip.measures, options_)) return false;

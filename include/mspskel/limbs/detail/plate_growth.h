@@ -103,7 +103,7 @@ class PlateGrowth {
   // The same from a vertex of its rim.
   std::optional<Plate> grow_at(Index v, double most) {
     const Index side = side_near(v);
-    if (side == kNone || tried_[side] || chord(side) > most || !is_wide(side, -surface_.normal[v]))
+    if (side == kNone || tried_[side] || chord(side) > most || !is_wide_inward(side, -surface_.normal[v]))
       return std::nullopt;
     return grow(side, most);
   }
@@ -126,21 +126,53 @@ class PlateGrowth {
     bool in_pieces = false;         // none that hangs together is most of it
   };
 
-  // Whether the solid is as thick on both sides of the way inward from a face near the rim: where it is not,
-  // as in the end of a tube, nothing needs to grow.
-  bool is_wide(Index side, const Vector3& inward) {
+  // Whether the solid is as thick across at a point of the middle plane.
+  bool is_as_thick(const Vector3& x, const Vector3& across, double thickness) const {
+    const double most = kAlike * thickness;
+    const double here = length_within(x, across, most) + length_within(x, -across, most);
+    return here <= most && here * kAlike >= thickness;
+  }
+
+  // Whether it is so on both sides of the way inward from a face near the rim: where it is not, as in the end
+  // of a tube, nothing needs to grow.
+  bool is_wide_inward(Index side, const Vector3& inward) {
     const Vector3& across = normal_[side];
-    const double thickness = chord(side), most = kAlike * thickness;
+    const double thickness = chord(side);
     Vector3 along = inward - inward.dot(across) * across;
     if (!(thickness > 0) || !(along.norm() > 0)) return false;
     along.normalize();
-    for (const double sign : {-1.0, 1.0}) {
-      const Vector3 x = surface_.face_centroid(side) - 0.5 * thickness * across +
-                        thickness * (along + sign * across.cross(along));
-      const double here = length_within(x, across, most) + length_within(x, -across, most);
-      if (here > most || here * kAlike < thickness) return false;
+    const Vector3 x = surface_.face_centroid(side) - 0.5 * thickness * across + thickness * along,
+                  beside = thickness * across.cross(along);
+    return is_as_thick(x + beside, across, thickness) && is_as_thick(x - beside, across, thickness);
+  }
+
+  // Whether a slab is wider than thick nearly everywhere, and not only as a whole, as tubes that fork in one
+  // plane are: whichever way one goes from its sides along it, it goes on there or the opposite way. At most
+  // sixteen rays for each of some of the faces.
+  bool is_wide(const std::vector<Index>& faces, const Slab& slab) const {
+    constexpr std::size_t kSample = 64;
+    constexpr double kBeside = 0.9;  // thicknesses; in a square bar four fifths are nearer to the middle
+    constexpr double kShare = 0.5;   // of the area of the sides
+    constexpr int kWays = 4;
+    const Vector3 one = slab.across.unitOrthogonal(), other = slab.across.cross(one);
+    const auto goes_on = [&](const Vector3& x, int way) {
+      const double angle = kPi * way / kWays;
+      const Vector3 beside = kBeside * slab.thickness * (std::cos(angle) * one + std::sin(angle) * other);
+      return is_as_thick(x + beside, slab.across, slab.thickness) ||
+             is_as_thick(x - beside, slab.across, slab.thickness);
+    };
+    double sides = 0, wide = 0;
+    for (std::size_t i = 0; i < faces.size(); i += 1 + faces.size() / kSample) {
+      if (!is_side(faces[i], slab.across)) continue;
+      const double area = surface_.face_area(faces[i]);
+      const Vector3 x = surface_.face_centroid(faces[i]);
+      const Vector3 middle = x - slab.across.dot(x - slab.middle) * slab.across;
+      sides += area;
+      int ways = 0;
+      while (ways < kWays && goes_on(middle, ways)) ++ways;
+      if (ways == kWays) wide += area;
     }
-    return true;
+    return wide >= kShare * sides;
   }
 
   // A face of the side of a plate that a vertex is on the rim of: where the ball inward of it, as wide as it
@@ -324,7 +356,7 @@ class PlateGrowth {
       bottom = std::min(bottom, height_of(surface_.position[v], *root) - lowest);
     // A top on legs and a wall between walls are fixed at more sides than one.
     if (hull.beyond(end).norm() < kFree * level.depth || bottom < -kBelow * level.depth ||
-        !(level.depth > kLeastTipDepth * options_.smallest))
+        !(level.depth > kLeastTipDepth * options_.smallest) || !is_wide(faces, slab))
       return std::nullopt;
     // Plates that meet have roots round corners, and one of two may be more than half of all. What is thick
     // and so is a body or a bend, and what is fixed in several places is a top on legs.
