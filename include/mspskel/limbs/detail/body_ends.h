@@ -26,14 +26,19 @@ class BodyEnds {
            const std::vector<FoundLimb>& limbs)
       : surface_(surface),
         solid_(solid),
-        limbs_(limbs),
         body_(static_cast<std::size_t>(surface.component_count)),
         area_with_limbs_(component_areas(surface)),
         in_limb_(surface.position.size(), 0) {
-    for (const FoundLimb& limb : limbs) {
-      if (limb.tip.kind == TipKind::kLimb) ++body_[surface.component[limb.tip.vertex]].limbs;
-      for (const Index v : limb.part) in_limb_[v] = 1;
+    set_carried(limbs);
+    for (const FoundLimb* const limb : carried_) {
+      if (limb->tip.kind != TipKind::kLimb) continue;
+      const double mouth = 2 * kPi * limb->tip.measures.depth / limb->tip.measures.depth_over_mouth;
+      Body& body = body_[surface.component[limb->tip.vertex]];
+      ++body.carried;
+      body.mouths += mouth * mouth / (4 * kPi);
     }
+    for (const FoundLimb& limb : limbs)
+      if (limb.tip.kind == TipKind::kLimb) ++body_[surface.component[limb.tip.vertex]].limbs;
     for (Index v = 0; v < surface.vertex_count(); ++v) {
       if (in_limb_[v] || surface.vertex_halfedge[v] == kNone) continue;
       const Vector3& x = surface.position[v];
@@ -48,26 +53,44 @@ class BodyEnds {
 
   Index limb_count(Index component) const { return body_[component].limbs; }
 
+  // Where the only limb of a body that is a flat plate leaves it, if that is a rod: its arc goes all its
+  // length.
+  std::optional<LimbTip> foot(Index component) const {
+    constexpr double kLeastSlenderness = 2, kSolid = 0.5;
+    if (!is_plate(body_[component])) return std::nullopt;
+    const FoundLimb* only = nullptr;
+    for (const FoundLimb* const limb : carried_) {
+      if (surface_.component[limb->tip.vertex] != component) continue;
+      if (only != nullptr) return std::nullopt;
+      only = limb;
+    }
+    if (only == nullptr || !only->tip.plate.empty() || !solid_.inside(only->root)) return std::nullopt;
+    const LimbMeasures& m = only->tip.measures;
+    if (m.slenderness < kLeastSlenderness || m.half_chord < kSolid * m.half_width) return std::nullopt;
+    return end_at(component, only->root);
+  }
+
   // The ends of one component's body that no limb stands for. `loops`: whether it has handles.
   std::vector<LimbTip> run(Index component, bool loops) const {
     const Body& body = body_[component];
     std::vector<LimbTip> ends;
-    if (!(body.area > 0) || !solid_.inside(body.centre)) return ends;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(body.second / body.area -
-                                                                body.centre * body.centre.transpose());
+    // With less surface than its limbs' mouths it is but the seam between them.
+    if (!(body.area > body.mouths) || !solid_.inside(body.centre)) return ends;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance(body));
     const Vector3 moment = solver.eigenvalues();  // ascending
     if (moment[2] >= kLonger * kLonger * moment[1])
       for (const double sign : {-1.0, 1.0}) add_end(component, sign * solver.eigenvectors().col(2), ends);
     if (body.limbs == 0 && ends.empty()) add_ends_of_axis(component, solver, ends);
     if (!ends.empty()) return ends;
     Index others = 0;
-    for (const FoundLimb& limb : limbs_)
-      if (surface_.component[limb.tip.vertex] == component && limb.tip.kind != TipKind::kLimb) ++others;
+    for (const FoundLimb* const limb : carried_)
+      if (surface_.component[limb->tip.vertex] == component && limb->tip.kind != TipKind::kLimb) ++others;
     const std::optional<Vector3> away = away_from_limbs(component);
     if (!away) return ends;
     add_end(component, *away, ends);
     if (ends.empty() && others == 0 && !loops &&
-        (body.limbs == 1 ? is_flat(body.centre, *away) : is_far_from_limbs(component)))
+        ((body.carried == 1 && is_flat(body.centre, *away)) ||
+         (body.limbs > 1 && is_far_from_limbs(component))))
       ends.push_back(end_at(component, body.centre));
     return ends;
   }
@@ -75,10 +98,35 @@ class BodyEnds {
  private:
   struct Body {
     Index limbs = 0;
+    Index carried = 0;  // limbs that it carries itself, and no other limb does
+    double mouths = 0;  // area of discs with the rims of their mouths
     double area = 0;
     Vector3 centre = Vector3::Zero();
     Eigen::Matrix3d second = Eigen::Matrix3d::Zero();  // ∫ x xᵀ
   };
+
+  // A limb is a part of another one, as an arm of the pole that it leaves, if that one's surface has its tip.
+  void set_carried(const std::vector<FoundLimb>& limbs) {
+    std::vector<const FoundLimb*> by_size;
+    for (const FoundLimb& limb : limbs) by_size.push_back(&limb);
+    std::stable_sort(by_size.begin(), by_size.end(),
+                     [](const FoundLimb* a, const FoundLimb* b) { return a->part.size() > b->part.size(); });
+    for (const FoundLimb* const limb : by_size) {
+      if (!in_limb_[limb->tip.vertex]) carried_.push_back(limb);
+      for (const Index v : limb->part) in_limb_[v] = 1;
+    }
+  }
+
+  // Whether the surface is no farther from its middle plane than the plate is thick in its middle.
+  bool is_plate(const Body& body) const {
+    if (!(body.area > 0) || !solid_.inside(body.centre)) return false;
+    const double least = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance(body)).eigenvalues()[0];
+    return std::sqrt(std::max(0.0, least)) <= 2 * solid_.distance(body.centre);
+  }
+
+  static Eigen::Matrix3d covariance(const Body& body) {
+    return body.second / body.area - body.centre * body.centre.transpose();
+  }
 
   static constexpr double kLonger = 1.4;  // length over width
 
@@ -102,9 +150,9 @@ class BodyEnds {
     constexpr double kOneSide = 0.5;  // the cosine of the half angle of the cone that they are in
     std::vector<Vector3> directions;
     Vector3 sum = Vector3::Zero();
-    for (const FoundLimb& limb : limbs_) {
-      if (surface_.component[limb.tip.vertex] != component || limb.tip.kind != TipKind::kLimb) continue;
-      directions.push_back((limb.root - body_[component].centre).normalized());
+    for (const FoundLimb* const limb : carried_) {
+      if (surface_.component[limb->tip.vertex] != component || limb->tip.kind != TipKind::kLimb) continue;
+      directions.push_back((limb->root - body_[component].centre).normalized());
       sum += directions.back();
     }
     const Vector3 axis = sum.normalized();
@@ -128,8 +176,8 @@ class BodyEnds {
     if (body.area < kLeastShare * area_with_limbs_[component]) return false;
     const Vector3& centre = body.centre;
     const double least = kLonger * solid_.distance(centre);
-    return std::none_of(limbs_.begin(), limbs_.end(), [&](const FoundLimb& limb) {
-      return surface_.component[limb.tip.vertex] == component && (limb.root - centre).norm() < least;
+    return std::none_of(carried_.begin(), carried_.end(), [&](const FoundLimb* limb) {
+      return surface_.component[limb->tip.vertex] == component && (limb->root - centre).norm() < least;
     });
   }
 
@@ -142,9 +190,9 @@ class BodyEnds {
     const auto hit = solid_.first_hit(centre, direction);
     const double radius = solid_.distance(centre);
     if (!hit || hit->distance < least * radius) return;
-    for (const FoundLimb& limb : limbs_)
-      if (surface_.component[limb.tip.vertex] == component &&
-          (limb.root - centre).dot(direction) > kNear * hit->distance)
+    for (const FoundLimb* const limb : carried_)
+      if (surface_.component[limb->tip.vertex] == component &&
+          (limb->root - centre).dot(direction) > kNear * hit->distance)
         return;
     const Vector3 end = centre + hit->distance * direction;
     LimbTip tip = end_at(component, end);
@@ -185,10 +233,10 @@ class BodyEnds {
 
   const SurfaceSnapshot& surface_;
   const BoundingVolumeHierarchy& solid_;
-  const std::vector<FoundLimb>& limbs_;
-  std::vector<Body> body_;               // per component
-  std::vector<double> area_with_limbs_;  // per component
-  std::vector<std::uint8_t> in_limb_;    // per vertex
+  std::vector<const FoundLimb*> carried_;  // limbs that are no part of another one
+  std::vector<Body> body_;                 // per component
+  std::vector<double> area_with_limbs_;    // per component
+  std::vector<std::uint8_t> in_limb_;      // per vertex
 };
 
 }  // namespace detail
