@@ -2,10 +2,12 @@
 #include "mspskel/limbs/detail/flat_ends.h"
 
 #include <catch2/catch.hpp>
+#include <limits>
 
 #include "mspskel/extract_skeleton.h"
 #include "mspskel/mesh/coarsen_surface.h"
 #include "mspskel/render/render.h"
+#include "support/pipes.h"
 #include "support/solids.h"
 #include "topology/voxel_solids.h"
 
@@ -40,6 +42,26 @@ DefaultMesh cut_vessel(const std::vector<Outlet>& outlets, Index vertices) {
   return to_mesh(to_polygon_soup(coarsen_surface(make_snapshot(to_mesh(soup)), even).surface));
 }
 
+struct Stub {
+  double place, radius, top;
+};
+
+// A header of radius 1 along x, from -4 to 4, and stubs that stand up from it.
+DefaultMesh header(const std::vector<Stub>& stubs) {
+  std::vector<Pipe> pipes{{{-4, 0, 0}, {4, 0, 0}, 1.0}};
+  for (const Stub& stub : stubs)
+    pipes.push_back({{stub.place, 0, 0}, {stub.place, 0, stub.top}, stub.radius});
+  return united(pipes, 0.15);
+}
+
+double distance_to_leaf(const CurveSkeleton& skeleton, const Vector3& x) {
+  const auto neighbours = adjacency(skeleton);
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < neighbours.size(); ++i)
+    if (neighbours[i].size() == 1) nearest = std::min(nearest, (skeleton.nodes[i].position - x).norm());
+  return nearest;
+}
+
 std::vector<std::vector<Outlet>> vessels() {
   const Vector3 x(1, 0, 0), z(0, 0, 1);
   return {{{z, 0.9, 1.5}, {Vector3(0.87, 0, -0.5), 0.8, 1.5}, {Vector3(-0.87, 0, -0.5), 0.7, 1.6}},
@@ -61,15 +83,66 @@ TEST_CASE("A short vessel's skeleton ends in the middle of each of its caps") {
       const DefaultMesh mesh = jittered(cut_vessel(outlets, 6000), 11, noise);
       const CurveSkeleton skeleton = extract_skeleton(mesh).skeleton;
       CHECK(count_graph(skeleton).leaves == static_cast<Index>(outlets.size()));
-      const auto neighbours = adjacency(skeleton);
-      for (const Outlet& outlet : outlets) {
-        double nearest = 10;
-        for (std::size_t i = 0; i < neighbours.size(); ++i)
-          if (neighbours[i].size() == 1)
-            nearest = std::min(nearest, (skeleton.nodes[i].position - outlet.centre()).norm());
-        CHECK(nearest < 0.4 * outlet.radius);
-      }
+      for (const Outlet& outlet : outlets)
+        CHECK(distance_to_leaf(skeleton, outlet.centre()) < 0.4 * outlet.radius);
     }
+  }
+}
+
+TEST_CASE("Stubs near the ends of a header and these ends have a leaf each, in the middles of their caps") {
+  const std::vector<std::vector<Stub>> rows = {
+      {{-2.8, 0.4, 2.4}, {0, 0.4, 2.4}, {2.8, 0.4, 2.4}},
+      {{-2.6, 0.5, 2.0}, {-0.8, 0.3, 1.8}, {1.0, 0.6, 2.2}, {2.9, 0.3, 1.8}},
+      {{-2.4, 0.3, 2.2}, {2.5, 0.6, 2.0}}};
+  for (const std::vector<Stub>& stubs : rows)
+    for (const double noise : {0.0, 0.05}) {
+      CAPTURE(stubs.size(), noise);
+      const CurveSkeleton skeleton = extract_skeleton(jittered(header(stubs), 5, noise)).skeleton;
+      CHECK(count_graph(skeleton).leaves == static_cast<Index>(stubs.size() + 2));
+      for (const double end : {-4.0, 4.0}) CHECK(distance_to_leaf(skeleton, {end, 0, 0}) < 0.4);
+      for (const Stub& stub : stubs)
+        CHECK(distance_to_leaf(skeleton, {stub.place, 0, stub.top}) < 0.5 * stub.radius);
+    }
+}
+
+TEST_CASE("The rim of a flat end may be jagged") {
+  const DefaultMesh mesh = united({{{-1.5, 0, 0}, {1.5, 0, 0}, 1.0}, {{0, 0, 0}, {0, 0, 1.5}, 0.8}}, 0.08);
+  const Solid solid(jittered(mesh, 3, 0.2));
+  CHECK(detail::FlatEndSearch(solid.surface, solid.hierarchy, {}).run().size() == 3);
+}
+
+TEST_CASE("A jug has an axis from its mouth to its bottom, and a loop") {
+  for (const double bottom : {-1.0, -1.4}) {
+    std::vector<Pipe> pipes{{{0, 0, bottom}, {0, 0, 1}, 1.0}, {{0, 0, 0}, {0, 0, 2}, 0.4}};
+    const std::vector<Vector3> handle = {
+        {0.5, 0, 0.7}, {1.5, 0, 0.7}, {1.9, 0, 0.1}, {1.5, 0, -0.5}, {0.5, 0, -0.5}};
+    for (std::size_t i = 1; i < handle.size(); ++i) {
+      const Vector3 overlap = 0.05 * (handle[i] - handle[i - 1]).normalized();
+      pipes.push_back({handle[i - 1] - overlap, handle[i] + overlap, 0.15});
+    }
+    const CurveSkeleton skeleton = extract_skeleton(united(pipes, 0.15)).skeleton;
+    CAPTURE(bottom);
+    CHECK(count_graph(skeleton).leaves == 2);
+    CHECK(count_graph(skeleton).cycles == 1);
+    CHECK(distance_to_leaf(skeleton, {0, 0, 2}) < 0.2);
+    CHECK(distance_to_leaf(skeleton, {0, 0, bottom}) < 0.3);
+  }
+}
+
+TEST_CASE("A flat spanner has a loop, and no end but those of its jaw") {
+  for (const int length : {8, 12}) {
+    VoxelSolid spanner;
+    spanner.box({0, 0, 0}, {length, 2, 1});
+    spanner.box({length, -1, 0}, {length + 1, 3, 1});
+    for (const int side : {-1, 2}) spanner.box({length + 1, side, 0}, {length + 3, side + 1, 1});
+    spanner.box({-4, -1, 0}, {0, 3, 1});
+    for (const int x : {-3, -2})
+      for (const int y : {0, 1}) spanner.cells.erase({x, y, 0});
+    const DefaultMesh mesh = rotated(to_mesh(boundary(spanner, 3)), {0.2, 0.5, -0.8}, 0.7);
+    const GraphCounts counts = count_graph(extract_skeleton(mesh).skeleton);
+    CAPTURE(length);
+    CHECK(counts.leaves == 2);
+    CHECK(counts.cycles == 1);
   }
 }
 
@@ -90,7 +163,7 @@ TEST_CASE("The arms of square tees and crosses have an end each, and cubes none"
 }
 
 TEST_CASE("A stand with hooks on its top ends at its foot, however wide that is") {
-  for (const double foot : {0.6, 1.3, 1.8}) {
+  for (const double foot : {0.6, 1.3, 1.8, 2.5}) {
     BallGraph graph;
     graph.blend = 0.05;
     graph.nodes = {{{0, 0, 0}, 0.2}, {{0, 0, 6}, 0.2}};

@@ -34,6 +34,7 @@ struct LimbTip {
   // A wing or a leaf, thin as it may be: it is as slender as a finger and does not widen to its end, and the
   // middle of its surface lies in the solid, other than that of a wall which bends round a hollow.
   bool is_lobe = false;
+  double flat_end = 0.0;  // the radius of the flat cap in which it ends, as of a tube that was cut off; or 0
 };
 
 // The limbs of each component. A limb is what lies beyond a maximum of the inner distance from the middle, as
@@ -57,7 +58,7 @@ std::vector<LimbTip> find_limb_tips(const SurfaceSnapshot& surface, const Boundi
                                     const Execution& execution = {});
 
 // Drops the tips that lie in a wall of a shell, where what reaches farthest is any place of the rim: those
-// whose ends are less than 0.45 half widths thick on either side of the middle.
+// that are less than 0.45 half widths thick on either side of the middle, at their ends and in the median.
 void drop_tips_in_walls(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
                         const std::vector<bool>& shells, std::vector<LimbTip>& tips);
 

@@ -1,4 +1,4 @@
-// The convex hull of points in a plane.
+// The convex hull of points in a plane. CGAL has one, but is no part of every build.
 #pragma once
 
 #include <algorithm>
@@ -43,6 +43,16 @@ class PlaneHull {
     }
     if (within) return Vector3::Zero();
     return way.x() * side_ + way.y() * up_;
+  }
+
+  // O(corners).
+  double area() const {
+    double twice = 0;
+    for (std::size_t i = 0; i < corner_.size(); ++i) {
+      const Vector2 &a = corner_[i], &b = corner_[(i + 1) % corner_.size()];
+      twice += a.x() * b.y() - a.y() * b.x();
+    }
+    return 0.5 * twice;
   }
 
  private:

@@ -160,6 +160,7 @@ MSPSKEL_INLINE void drop_tips_in_walls(const SurfaceSnapshot& surface, const Bou
   constexpr double kThin = 0.45;
   const auto in_wall = [&](const LimbTip& tip) {
     if (!shells[surface.component[tip.vertex]] || tip.is_lobe) return false;
+    if (tip.measures.half_chord >= kThin * tip.measures.half_width) return false;
     std::vector<double> chords;
     for (const Index v : tip.cap) chords.push_back(detail::half_chord(surface, solid, v));
     return detail::value_at_rank(std::move(chords), 0.5) < kThin * tip.measures.half_width;
@@ -177,10 +178,14 @@ inline void add_body_ends(const SurfaceSnapshot& surface, const std::vector<bool
   std::vector<bool> has_ears(shells.size(), false);
   for (Index c = 0; c < surface.component_count; ++c) {
     has_ears[c] = bodies.limb_count(c) > 0;
-    if (shells[c] || (!has_ears[c] && twice_euler[c] == 4)) continue;
-    for (LimbTip& end : bodies.run(c, twice_euler[c] != 4)) {
-      has_ears[c] = true;
-      tips.push_back(std::move(end));
+    const bool loops = twice_euler[c] != 4;
+    if ((shells[c] || !has_ears[c]) && !loops) {
+      if (std::optional<LimbTip> foot = bodies.foot(c)) tips.push_back(std::move(*foot));
+    } else if (!shells[c]) {
+      for (LimbTip& end : bodies.run(c, loops)) {
+        has_ears[c] = true;
+        tips.push_back(std::move(end));
+      }
     }
   }
   const auto is_corner = [&](const LimbTip& tip) {
@@ -195,31 +200,50 @@ inline bool are_opposite(const std::vector<const FlatEnd*>& ends) {
   return ends.size() == 1 || (ends.size() == 2 && ends[0]->normal.dot(ends[1]->normal) < kOpposite);
 }
 
-// Adds the flat ends that no tip stands for. A body without other tips than the ends of its longest way has
-// an axis if its flat ends are opposite; else they take the place of ways that end in them, at any place near
-// the rim.
-inline void add_flat_ends(const SurfaceSnapshot& surface, const std::vector<FlatEnd>& ends,
-                          std::vector<LimbTip>& tips) {
+// Whether the straight way inward from an end is longer than that is wide: the hub of a wheel is not.
+inline bool is_long_behind(const FlatEnd& end, const BoundingVolumeHierarchy& solid) {
+  constexpr double kLonger = 1.25;  // as the stretch of a body that has an axis
+  return !solid.first_hit(end.tip.target, -end.normal, 2 * kLonger * end.tip.flat_end);
+}
+
+// Adds the flat ends that no tip stands for. A body without handles or other tips than the ends of its
+// longest way has an axis if its flat ends are opposite; else they take the place of ways that end in them,
+// at any place near the rim. A limb or body of which one is the end is led to its middle.
+inline void add_flat_ends(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
+                          const std::vector<FlatEnd>& ends, std::vector<LimbTip>& tips) {
   constexpr double kNear = 1.5;  // radii
   std::vector<std::vector<const FlatEnd*>> of_component(static_cast<std::size_t>(surface.component_count));
   for (const FlatEnd& end : ends) of_component[surface.component[end.tip.vertex]].push_back(&end);
+  const std::vector<Index> twice_euler = twice_euler_characteristics(surface);
   std::vector<bool> has_tip(of_component.size(), false);
   for (const LimbTip& tip : tips)
     if (tip.kind != TipKind::kWayEnd) has_tip[surface.component[tip.vertex]] = true;
   for (std::size_t c = 0; c < of_component.size(); ++c) {
-    if (!has_tip[c] && are_opposite(of_component[c])) continue;
+    const bool opposite = !has_tip[c] && are_opposite(of_component[c]);
+    if (opposite && twice_euler[c] == 4) continue;
     for (const FlatEnd* const end : of_component[c]) {
+      if (opposite && !is_long_behind(*end, solid)) continue;
       const auto ends_there = [&](const LimbTip& tip) {
-        return std::binary_search(end->tip.cap.begin(), end->tip.cap.end(), tip.vertex);
+        return std::binary_search(end->vertices.begin(), end->vertices.end(), tip.vertex);
       };
       const auto stands_for_it = [&](const LimbTip& tip) {
+        const double distance = (tip.target - end->tip.target).norm(), radius = end->tip.flat_end;
         return tip.kind != TipKind::kWayEnd &&
-               (ends_there(tip) || (tip.target - end->tip.target).norm() <= end->tip.measures.depth);
+               (ends_there(tip) || distance <= radius ||
+                (distance <= kNear * radius &&
+                 std::find(tip.cap.begin(), tip.cap.end(), end->tip.vertex) != tip.cap.end()));
       };
+      for (LimbTip& tip : tips)
+        if (tip.kind == TipKind::kBodyEnd ? stands_for_it(tip)
+                                          : tip.kind != TipKind::kWayEnd && ends_there(tip)) {
+          tip.flat_end = end->tip.flat_end;
+          tip.cap = end->tip.cap;
+          tip.target = end->tip.target;
+        }
       if (std::any_of(tips.begin(), tips.end(), stands_for_it)) continue;
       const auto way_ends_near = [&](const LimbTip& tip) {
         return tip.kind == TipKind::kWayEnd &&
-               (surface.position[tip.vertex] - end->tip.target).norm() <= kNear * end->tip.measures.depth;
+               (surface.position[tip.vertex] - end->tip.target).norm() <= kNear * end->tip.flat_end;
       };
       tips.erase(std::remove_if(tips.begin(), tips.end(), way_ends_near), tips.end());
       tips.push_back(end->tip);
@@ -280,7 +304,8 @@ MSPSKEL_INLINE std::vector<LimbTip> find_limb_tips(const SurfaceSnapshot& surfac
   drop_tips_in_walls(surface, solid, shells, tips);
   detail::add_body_ends(surface, shells, detail::BodyEnds(surface, solid, limbs), tips);
   detail::add_longest_ways(surface, ways, distance, tips);
-  detail::add_flat_ends(surface, detail::FlatEndSearch(surface, solid, execution.progress).run(), tips);
+  detail::add_flat_ends(surface, solid, detail::FlatEndSearch(surface, solid, execution.progress).run(),
+                        tips);
   for (LimbTip& tip : tips) tip.position = surface.position[tip.vertex];
   return tips;
 }

@@ -96,6 +96,14 @@ inline bool lead_to_target(std::vector<Vector3>& points, const LimbTip& tip, Inn
   return points != before;
 }
 
+// How far an arc may end from its target, times the slack: a cap has its middle where it is, however wide the
+// limb is.
+inline double width_of_end(const LimbTip& tip) {
+  constexpr double kOfFlatEnd = 0.25;  // of its radius
+  const double half_width = tip.measures.half_width;
+  return tip.flat_end > 0 ? std::min(half_width, kOfFlatEnd * tip.flat_end) : half_width;
+}
+
 // Half of a lone arc, from its middle to the given end.
 inline std::vector<Vector3> half_of(const Arc& arc, int end) {
   std::vector<Vector3> whole = points_from(arc, 1 - end);
@@ -191,7 +199,7 @@ MSPSKEL_INLINE std::vector<Index> aim_at_tips(ArcGraph& graph, detail::InnerGrap
     const detail::LeafArc& leaf = leaves.leaf[leaf_of_tip[t]];
     std::vector<Vector3> points = detail::leaf_points(graph, leaf);
     const double half_width = tips[t].measures.half_width;
-    if (slack > 0 && (points.back() - tips[t].target).norm() <= slack * half_width) continue;
+    if (slack > 0 && (points.back() - tips[t].target).norm() <= slack * detail::width_of_end(tips[t])) continue;
     if (!detail::lead_to_target(points, tips[t], inner, detail::step_for_width(half_width, step))) continue;
     detail::set_leaf_points(graph, leaf, std::move(points));
     aimed.push_back(leaf.tip);

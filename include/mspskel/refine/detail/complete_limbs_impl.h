@@ -129,22 +129,28 @@ class LimbCompletion {
   // through most of it. The ball in the middle of a tube that was cut off short comes near its end.
   static double uncovered(const LimbTip& tip) {
     const LimbMeasures& m = tip.measures;
-    if (tip.kind == TipKind::kFlatEnd) return 0;
+    if (tip.flat_end > 0) return 0;
     return tip.kind == TipKind::kBodyEnd ? 0.25 * m.depth : std::min(0.5 * m.depth, m.half_width);
   }
 
   // The ends of bodies and tubes lie in their middles, so the way to one is straight or none.
   bool reach_tip(const LimbTip& tip) {
     watch_.ask();
-    if (tip.kind != TipKind::kBodyEnd && tip.kind != TipKind::kFlatEnd)
-      return try_limb(tip.vertex, tip.measures.half_width);
+    if (tip.kind == TipKind::kBodyEnd || tip.kind == TipKind::kFlatEnd) return reach_straight(tip);
+    return (tip.flat_end > 0 && reach_straight(tip)) || try_limb(tip.vertex, tip.measures.half_width);
+  }
+
+  bool reach_straight(const LimbTip& tip) {
     const Index component = surface_.component[tip.vertex];
     const auto own = [&](Index hub) { return hub_component_[hub] == component; };
     for (const auto& [distance, point] :
          nearest_points(graph_, tip.target, own, [&](Index arc) { return own(graph_.arcs[arc].hub[0]); })) {
       if (distance < step_) return false;
       if (solid_.segment_crosses(point.position, tip.target)) continue;
-      add(point, resampled({{0, 1}, {point.position, tip.target}, true}, step_), component);
+      const Index arc = add(point, resampled({{0, 1}, {point.position, tip.target}, true}, step_), component);
+      // A ball behind a flat end may touch it in the middle and yet not stand for it.
+      if (tip.flat_end > 0)
+        for (const Index v : tip.cap) give(v, arc);
       return true;
     }
     return false;
@@ -239,7 +245,8 @@ class LimbCompletion {
   }
 
   // Vertices of other components are none of the limb's business, however near they lie.
-  void add(const GraphPoint& start, const std::vector<Vector3>& way, Index component) {
+  // Returns the arc.
+  Index add(const GraphPoint& start, const std::vector<Vector3>& way, Index component) {
     Arc limb;
     limb.hub = {hub_at(graph_, surface_, start), graph_.add_hub(way.back())};
     hub_component_.resize(graph_.hub_position.size(), component);
@@ -249,10 +256,14 @@ class LimbCompletion {
     std::vector<Ball> balls;
     for (std::size_t i = 1; i < way.size(); ++i) balls.push_back({way[i], solid_.distance(way[i])});
     uncovered_.cover(BallChain(std::move(balls)), [&](Index v) {
-      if (surface_.component[v] != component) return;
-      graph_.arc_of_vertex[v] = added;
-      graph_.hub_of_vertex[v] = kNone;
+      if (surface_.component[v] == component) give(v, added);
     });
+    return added;
+  }
+
+  void give(Index v, Index arc) {
+    graph_.arc_of_vertex[v] = arc;
+    graph_.hub_of_vertex[v] = kNone;
   }
 
   ArcGraph& graph_;

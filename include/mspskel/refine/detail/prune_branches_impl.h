@@ -47,7 +47,7 @@ MSPSKEL_INLINE Index remove_spurs(ArcGraph& graph, const BoundingVolumeHierarchy
                                   const std::vector<LimbTip>& tips) {
   const auto is_flat_end = [&](const Vector3& x) {
     return std::any_of(tips.begin(), tips.end(), [&](const LimbTip& tip) {
-      return tip.kind == TipKind::kFlatEnd && (tip.target - x).norm() <= 0.5 * tip.measures.depth;
+      return (tip.target - x).norm() < 0.5 * tip.flat_end;
     });
   };
   Index removed = 0;
