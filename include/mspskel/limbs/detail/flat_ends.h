@@ -72,11 +72,11 @@ class FlatEndSearch {
     std::vector<Index> faces;
     Rim rim;
     Vector3 normal = Vector3::Zero(), centre = Vector3::Zero();
-    double area = 0;
+    double area = 0;        // as seen along the normal: noise adds to that of the faces
     double radius = 0;      // half the width of the ellipse with its second moments
     double elongation = 1;  // of that ellipse
     double fill = 0;        // its area over the ellipse's: 1, or 0.95 for a rectangle
-    double solidity = 0;    // its area over that of its convex hull: 0.86 for three squares as an L
+    double solidity = 0;    // the area in its rim over that of its hull: 0.86 for three squares as an L
   };
 
   // The faces that hang together with one and lie about across an axis.
@@ -115,10 +115,7 @@ class FlatEndSearch {
     cap.rim = rim_of(cap.faces, axis);
     const Vector3 area = area_vector(cap.faces);
     cap.area = area.norm();
-    // What stands on a cap goes on where that would end.
-    if (cap.rim.halfedges.size() < kLeastRim || !(cap.area > 0) ||
-        cap.rim.others > kMostOthers * cap.rim.length)
-      return std::nullopt;
+    if (cap.rim.halfedges.size() < kLeastRim || !(cap.area > 0)) return std::nullopt;
     cap.normal = area.normalized();
     set_moments(cap);
     if (!is_flat(cap)) return std::nullopt;
@@ -131,6 +128,8 @@ class FlatEndSearch {
     if (2 * found_before > cap.faces.size()) return std::nullopt;
     if (is_wide(cap))
       for (const Index f : cap.faces) in_cap_[f] = true;
+    // What stands on a cap goes on where that would end.
+    if (cap.rim.others > kMostOthers * cap.rim.length) return std::nullopt;
     return cap;
   }
 
@@ -158,13 +157,21 @@ class FlatEndSearch {
                  length = std::sqrt(std::max(0.0, solver.eigenvalues()[2]));
     cap.radius = 2 * width;
     cap.elongation = length / width;
-    cap.fill = area / (4 * kPi * width * length);
+    cap.fill = cap.area / (4 * kPi * width * length);
     std::vector<Vector3> rim;
     for (const Index h : cap.rim.halfedges) rim.push_back(surface_.position[surface_.origin[h]]);
-    cap.solidity = area / PlaneHull(rim, cap.normal).area();
+    cap.solidity = area_within(rim, cap.normal) / PlaneHull(rim, cap.normal).area();
   }
 
-  // Whether it is about as wide as long, and no L and no ring.
+  // In a loop of points, as seen along a direction.
+  static double area_within(const std::vector<Vector3>& loop, const Vector3& across) {
+    double twice = 0;
+    for (std::size_t i = 0; i < loop.size(); ++i)
+      twice += (loop[i] - loop[0]).cross(loop[(i + 1) % loop.size()] - loop[0]).dot(across);
+    return 0.5 * twice;
+  }
+
+  // Whether it is about as wide as long, and no L or T.
   static bool is_wide(const Cap& cap) {
     constexpr double kSlim = 2.2, kHollow = 0.9;
     return cap.elongation <= kSlim && cap.solidity >= kHollow;
