@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "mspskel/base/error.h"
+#include "mspskel/segment/smooth_borders.h"
 
 namespace mspskel {
 namespace {
@@ -42,31 +43,44 @@ Border add(Borders& borders, Index piece, const Border& border) {
   return at->second;
 }
 
+// Sets of faces, each within one part.
+struct Patches {
+  std::vector<Index> of_face;
+  std::vector<Index> part;  // per patch
+};
+
+Patches single_faces(const std::vector<Index>& part_of_face) {
+  Patches patches{std::vector<Index>(part_of_face.size()), part_of_face};
+  std::iota(patches.of_face.begin(), patches.of_face.end(), 0);
+  return patches;
+}
+
 // Pieces of parts that become one, pair by pair, until each part is one: a tree of merges. Which of them
-// stand is decided on the whole tree. A piece's number is that of one of its faces.
+// stand is decided on the whole tree. A piece's number is that of one of its patches.
 class PieceMerger {
  public:
-  PieceMerger(const SurfaceSnapshot& surface, const std::vector<double>& costs,
-              const std::vector<Index>& part_of_face, const CreasePartOptions& options)
+  PieceMerger(const SurfaceSnapshot& surface, const std::vector<double>& costs, const Patches& patches,
+              const CreasePartOptions& options)
       : options_(options),
-        into_(part_of_face.size()),
-        border_(part_of_face.size()),
-        gain_(part_of_face.size(), 0.0) {
+        patch_of_face_(patches.of_face),
+        into_(patches.part.size()),
+        border_(patches.part.size()),
+        area_(patches.part.size(), 0.0),
+        gain_(patches.part.size(), 0.0) {
     std::iota(into_.begin(), into_.end(), 0);
-    const Index count = surface.face_count();
     merges_.reserve(into_.size());
-    for (Index f = 0; f < count; ++f) area_.push_back(surface.face_area(f));
+    for (Index f = 0; f < surface.face_count(); ++f) area_[patches.of_face[f]] += surface.face_area(f);
     total_ = std::accumulate(area_.begin(), area_.end(), 0.0);
     for (Borders& borders : border_) borders.reserve(3);
     for (Index h = 0; h < surface.halfedge_count(); ++h) {
-      const Index f = h / 3, g = surface.twin[h] / 3;
-      if (f != g && part_of_face[f] == part_of_face[g])
-        add(border_[f], g, {costs[h], surface.edge_length(h)});
+      const Index a = patches.of_face[h / 3], b = patches.of_face[surface.twin[h] / 3];
+      if (a != b && patches.part[a] == patches.part[b])
+        add(border_[a], b, {costs[h], surface.edge_length(h)});
     }
     std::vector<Pair> pairs;
-    for (Index f = 0; f < count; ++f)
-      for (const auto& [g, border] : border_[f])
-        if (f < g) pairs.push_back({key_of(worth(f, g, border)), f, g});
+    for (Index a = 0; a < static_cast<Index>(into_.size()); ++a)
+      for (const auto& [b, border] : border_[a])
+        if (a < b) pairs.push_back({key_of(worth(a, b, border)), a, b});
     queue_ = std::priority_queue<Pair>(std::less<Pair>(), std::move(pairs));
   }
 
@@ -79,15 +93,24 @@ class PieceMerger {
       if (key_of(found) == pair.key) merge(pair.a, pair.b, found);
     }
   }
+  // Per face what stands apart, numbered by the least face.
   std::vector<Index> numbered() {
     choose();
     std::vector<Index> part(into_.size(), kNone);
     Index next = 0;
-    for (std::size_t f = 0; f < part.size(); ++f)
-      if (into_[f] == static_cast<Index>(f)) part[f] = next++;
+    for (std::size_t i = 0; i < part.size(); ++i)
+      if (into_[i] == static_cast<Index>(i)) part[i] = next++;
     for (auto merged = merges_.rbegin(); merged != merges_.rend(); ++merged)
       part[merged->gone] = merged->apart ? next++ : part[merged->kept];
-    return numbered_by_face(part, next);
+    std::vector<Index> number(next, kNone), numbered;
+    numbered.reserve(patch_of_face_.size());
+    next = 0;
+    for (const Index patch : patch_of_face_) {
+      Index& chosen = number[part[patch]];
+      if (chosen == kNone) chosen = next++;
+      numbered.push_back(chosen);
+    }
+    return numbered;
   }
 
  private:
@@ -152,15 +175,6 @@ class PieceMerger {
     const auto last = static_cast<std::size_t>(std::max(0, wanted - whole));
     for (std::size_t i = 0; i < merges_.size(); ++i) merges_[i].apart = i + last >= merges_.size();
   }
-  static std::vector<Index> numbered_by_face(const std::vector<Index>& part, Index count) {
-    std::vector<Index> number(count, kNone), numbered(part.size());
-    Index next = 0;
-    for (std::size_t f = 0; f < part.size(); ++f) {
-      if (number[part[f]] == kNone) number[part[f]] = next++;
-      numbered[f] = number[part[f]];
-    }
-    return numbered;
-  }
   void merge(Index a, Index b, const Worth& found) {
     if (border_[a].size() < border_[b].size()) std::swap(a, b);
     record(a, b, found);
@@ -181,6 +195,7 @@ class PieceMerger {
   }
 
   const CreasePartOptions options_;
+  const std::vector<Index>& patch_of_face_;
   std::vector<Index> into_;  // per piece: the one that it became part of; its own number: it stands
   std::vector<Borders> border_;
   std::vector<double> area_;
@@ -190,21 +205,39 @@ class PieceMerger {
   double total_ = 0;
 };
 
+std::vector<Index> merge_patches(const SurfaceSnapshot& surface, const std::vector<double>& costs,
+                                 const Patches& patches, const CreasePartOptions& options) {
+  PieceMerger merger(surface, costs, patches, options);
+  merger.run();
+  return merger.numbered();
+}
+
 }  // namespace
 
 void validate(const CreasePartOptions& options) {
   if (!(options.cost >= 0 && options.cost <= 100)) throw UsageError("creases: cost must be from 0 to 100");
   if (!(options.smallest >= 0 && options.smallest <= 1))
     throw UsageError("creases: smallest must be from 0 to 1");
+  if (!(options.border_width >= 0 && options.border_width <= 10))
+    throw UsageError("creases: border width must be from 0 to 10");
+  if (!(options.doubt >= 1 && options.doubt <= 100)) throw UsageError("creases: doubt must be from 1 to 100");
   if (options.most < 0 || options.least < 0) throw UsageError("creases: counts must not be negative");
 }
 
 void split_at_creases(const SurfaceSnapshot& surface, const std::vector<double>& costs,
                       std::vector<Index>& part_of_face, const CreasePartOptions& options) {
   validate(options);
-  PieceMerger merger(surface, costs, part_of_face, options);
-  merger.run();
-  part_of_face = merger.numbered();
+  // Borders of grown pieces are as rough as the order of their merges made them. What they cost is told once
+  // they have settled.
+  CreasePartOptions doubtful = options;
+  doubtful.cost *= options.doubt;
+  doubtful.most = 0;
+  Patches grown{merge_patches(surface, costs, single_faces(part_of_face), doubtful), {}};
+  grown.part.resize(1 + *std::max_element(grown.of_face.begin(), grown.of_face.end()));
+  for (std::size_t f = 0; f < part_of_face.size(); ++f) grown.part[grown.of_face[f]] = part_of_face[f];
+  smooth_borders(surface, costs, grown.of_face, options.border_width);
+  connect_parts(surface, grown.of_face);
+  part_of_face = merge_patches(surface, costs, grown, options);
 }
 
 }  // namespace mspskel
