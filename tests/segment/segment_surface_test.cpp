@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numeric>
+#include <random>
 #include <set>
 
 #include "../../apps/bench/subdivide.h"
@@ -261,6 +262,41 @@ TEST_CASE("which rings of creases stand is decided for all together") {
   CHECK(parts_of_halved_cap(0.42, 0.52) == 3);
 }
 
+namespace {
+
+// Whether a sphere's cap is a part of its own where a broad crease with uneven costs, a zone some faces wide,
+// surrounds it. A straight ring in it costs nearly what the cap allows.
+bool is_cap_parted(unsigned seed) {
+  const SurfaceSnapshot surface = make_snapshot(test::to_mesh(make_sample("sphere")));
+  double top = 0;
+  for (const Vector3& x : surface.position) top = std::max(top, x.z());
+  std::mt19937 random(seed);
+  std::vector<double> costs(surface.halfedge_count());
+  for (Index h = 0; h < surface.halfedge_count(); ++h) {
+    const Index twin = surface.twin[h];
+    const double uneven = 0.5 + static_cast<double>(random()) / 4294967296.0;
+    if (twin < h) {
+      costs[h] = costs[twin];
+      continue;
+    }
+    const double z = 0.5 * (surface.face_centroid(h / 3).z() + surface.face_centroid(twin / 3).z());
+    costs[h] = surface.edge_length(h) * (std::abs(z / top - 0.5) < 0.1 ? 0.16 * uneven : 1.0);
+  }
+  std::vector<Index> part(surface.face_count(), 0);
+  split_at_creases(surface, costs, part);
+  return std::set<Index>(part.begin(), part.end()).size() == 2;
+}
+
+}  // namespace
+
+TEST_CASE("a ring of creases is judged once its border has settled") {
+  // As merging leaves it the border is rough, and whether it is too dear is a matter of luck: about half of
+  // these stand.
+  int parted = 0;
+  for (unsigned seed = 0; seed < 20; ++seed) parted += is_cap_parted(seed) ? 1 : 0;
+  CHECK(parted >= 16);
+}
+
 TEST_CASE("stray pieces of a part join what surrounds them") {
   const SurfaceSnapshot surface = make_snapshot(test::to_mesh(make_sample("capsule")));
   std::vector<Index> part(surface.face_count());
@@ -342,6 +378,12 @@ TEST_CASE("options out of range and maps that do not fit are refused") {
   CHECK_THROWS_AS(segment_surface(shape.surface, shape.skeleton, options), UsageError);
   options = {};
   options.creases.width = 2;
+  CHECK_THROWS_AS(segment_surface(shape.surface, shape.skeleton, options), UsageError);
+  options = {};
+  options.crease_parts.doubt = 0.5;
+  CHECK_THROWS_AS(segment_surface(shape.surface, shape.skeleton, options), UsageError);
+  options = {};
+  options.crease_parts.border_width = -1;
   CHECK_THROWS_AS(segment_surface(shape.surface, shape.skeleton, options), UsageError);
   options = {};
   options.crease_parts.smallest = -1;
