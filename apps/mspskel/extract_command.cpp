@@ -169,7 +169,7 @@ void expect(ProgressEstimate& estimate, const MeshInput& input, const ExtractOpt
   const SurfaceSnapshot surface = make_snapshot(input.built.mesh);
   std::vector<std::size_t> faces(surface.component_count, 0);
   for (Index f = 0; f < surface.face_count(); ++f) ++faces[surface.component[surface.origin[3 * f]]];
-  estimate.expect_components(faces);
+  estimate.expect_components(faces, options);
 }
 
 // Files that number vertices or faces number the surface's, which are not the file's where it was mended or

@@ -4,15 +4,13 @@
 #include <cmath>
 #include <numeric>
 
-#include "mspskel/mesh/component_solids.h"
+#include "mspskel/pipeline/component_order.h"
 
 namespace mspskel::cli {
 namespace {
 
 // A component is begun by what comes before its skeletal points, and ended by what comes after.
 constexpr const char* kMiddle = "skeletal points";
-// Faces of the surface that the stages walk on, at most: finer ones are coarsened to about so many.
-constexpr std::size_t kWorkingFaces = 3200;
 
 }  // namespace
 
@@ -45,19 +43,20 @@ void ProgressEstimate::expect_stages(const ExtractOptions& options, bool fine) {
   for (Stage& stage : stages_) stage.work /= all;
 }
 
-void ProgressEstimate::expect_components(const std::vector<std::size_t>& faces) {
+void ProgressEstimate::expect_components(const std::vector<std::size_t>& faces,
+                                         const ExtractOptions& options) {
   if (faces.size() < 2) return;
-  double small = 0;
-  std::vector<double> large;
-  for (const std::size_t count : faces) {
-    if (count <= kSmallComponent)
-      small += static_cast<double>(count);
+  const ComponentOrder order = order_components(faces, options);
+  pieces_.clear();
+  double beside = 0;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const double work = component_work(faces[order.components[i]], options);
+    if (i < order.alone)
+      pieces_.push_back(work);
     else
-      large.push_back(static_cast<double>(std::min(count, kWorkingFaces)));
+      beside += work / thread_count(options.execution);
   }
-  has_small_ = small > 0;
-  pieces_ = std::move(large);
-  if (has_small_) pieces_.insert(pieces_.begin(), small);
+  if (beside > 0) pieces_.push_back(beside);
   const double all = std::accumulate(pieces_.begin(), pieces_.end(), 0.0);
   for (double& piece : pieces_) piece /= all;
 }
@@ -70,16 +69,16 @@ int ProgressEstimate::place_of(const std::string& stage) const {
 
 double ProgressEstimate::share(const std::string& stage, double fraction) {
   const int place = place_of(stage), middle = place_of(kMiddle);
-  if (place >= 0 && place < middle && (last_stage_ > middle || (has_small_ && piece_ == 0)) &&
-      piece_ + 1 < pieces_.size())
-    before_ += pieces_[piece_++];
   double done = 0;
-  if (place >= 0) {
+  if (stage == kSideBySideStage) {
+    piece_ = pieces_.size() - 1;
+    before_ = 1 - pieces_.back();
+    done = fraction;
+  } else if (place >= 0) {
+    if (place < middle && last_stage_ > middle && piece_ + 1 < pieces_.size()) before_ += pieces_[piece_++];
     last_stage_ = place;
     for (int i = 0; i < place; ++i) done += stages_[i].work;
     done += stages_[place].work * fraction;
-  } else if (stage == "components") {
-    done = fraction;
   }
   share_ = std::clamp(before_ + pieces_[piece_] * done, share_, 0.99);
   return share_;

@@ -16,8 +16,8 @@ class ProgressEstimate {
   ProgressEstimate();
   // Those that the options ask for; `fine`: the mesh has more vertices than what it is coarsened to.
   void expect_stages(const ExtractOptions& options, bool fine);
-  // Faces of each component, in their order; without, there is one.
-  void expect_components(const std::vector<std::size_t>& faces);
+  // Faces of each component; without, there is one.
+  void expect_components(const std::vector<std::size_t>& faces, const ExtractOptions& options);
   // The share of the whole that is done, 0 to 1, when a stage has done this share of itself.
   double share(const std::string& stage, double fraction);
 
@@ -30,10 +30,9 @@ class ProgressEstimate {
   int place_of(const std::string& stage) const;  // -1 if it is none of them
 
   std::vector<Stage> stages_;
-  std::vector<double> pieces_{1.0};  // work of each, as a share; small components together are the first
-  bool has_small_ = false;
-  std::size_t piece_ = 0;  // that is under way
-  double before_ = 0;      // work of the pieces before it
+  std::vector<double> pieces_{1.0};  // work of each, as a share; components side by side are the last
+  std::size_t piece_ = 0;            // that is under way
+  double before_ = 0;                // work of the pieces before it
   int last_stage_ = -1;
   double share_ = 0;
 };

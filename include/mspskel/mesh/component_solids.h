@@ -11,10 +11,6 @@
 
 namespace mspskel {
 
-// Components of so many faces or fewer are shared out among the threads, before the larger ones, which share
-// out their own work.
-inline constexpr std::size_t kSmallComponent = 2000;
-
 // A component that lies directly inside another one and is turned the other way bounds a cavity of it. One
 // that is turned the same way is a solid of its own, which the outer one knows nothing of: a figure inside
 // its clothes.

@@ -2,13 +2,16 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "mspskel/base/run_each_beside.h"
 #include "mspskel/mesh/component_solids.h"
+#include "mspskel/pipeline/component_order.h"
 #include "mspskel/pipeline/detail/extract_component.h"
 #include "mspskel/pipeline/detail/join_components.h"
 
@@ -64,19 +67,21 @@ class ComponentwiseExtraction {
   template <class OptionsOf>
   void extract_all(OptionsOf options_of) {
     vertex_.assign(part_.size(), {});
-    std::vector<Index> small, large;
-    for (std::size_t c = 0; c < part_.size(); ++c)
-      (own_[c].size() <= kSmallComponent ? small : large).push_back(static_cast<Index>(c));
-    parallel_for(
-        static_cast<Index>(small.size()), "components", options_.execution, [] { return 0; },
-        [&](Index i, int) {
-          ExtractOptions options = options_of(small[i]);
-          // Progress is for the calling thread, which reports it for the components as a whole.
-          options.execution = {1, {}};
-          extract_one(small[i], options);
-        },
-        1);
-    for (const Index c : large) extract_one(c, options_of(c));
+    std::vector<std::size_t> faces;
+    for (const std::vector<Index>& own : own_) faces.push_back(own.size());
+    const ComponentOrder order = order_components(faces, options_);
+    const auto beside = order.components.begin() + static_cast<std::ptrdiff_t>(order.alone);
+    std::for_each(order.components.begin(), beside, [&](Index c) { extract_one(c, options_of(c)); });
+    const auto count = static_cast<Index>(order.components.end() - beside);
+    run_each_beside(count, options_.execution, [&](Index i, const Execution& aside) {
+      ExtractOptions options = options_of(beside[i]);
+      options.execution.threads = aside.threads;
+      // Stages of several components at the same time would say nothing.
+      options.execution.progress = [&aside, share = static_cast<double>(i) / count](const char*, double) {
+        return !aside.progress || aside.progress(kSideBySideStage, share);
+      };
+      extract_one(beside[i], options);
+    });
   }
 
   void extract_one(Index c, const ExtractOptions& options) {

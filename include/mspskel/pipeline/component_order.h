@@ -1,0 +1,52 @@
+// In which order the components of a surface are extracted, and which of them at the same time.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <vector>
+
+#include "mspskel/base/progress.h"
+#include "mspskel/extract_skeleton.h"
+
+namespace mspskel {
+
+// What the components that are side by side report, as one: the share of them that has been begun.
+inline constexpr const char* kSideBySideStage = "components side by side";
+
+struct ComponentOrder {
+  std::vector<Index> components;  // the largest first
+  std::size_t alone = 0;          // so many of them one after the other, then the others side by side
+};
+
+// What a component takes, roughly, in faces of a surface that the stages walk on. A finer one is coarsened to
+// it, at so much less a face.
+inline double component_work(std::size_t faces, const ExtractOptions& options) {
+  constexpr double kCoarsening = 1.0 / 16;
+  const auto count = static_cast<double>(faces);
+  if (!options.coarsen) return count;
+  return std::min(count, 2.0 * options.coarsening.vertices) + kCoarsening * count;
+}
+
+// `faces`: those of each component. A component shares out its own work among the threads, but not all of it:
+// it is alone only where it is more than one thread's share of what is left. The others have a thread each,
+// which leaves none without work.
+inline ComponentOrder order_components(const std::vector<std::size_t>& faces, const ExtractOptions& options) {
+  ComponentOrder order;
+  order.components.resize(faces.size());
+  std::iota(order.components.begin(), order.components.end(), 0);
+  std::stable_sort(order.components.begin(), order.components.end(),
+                   [&](Index a, Index b) { return faces[a] > faces[b]; });
+  double left = 0;
+  for (const std::size_t count : faces) left += component_work(count, options);
+  const int threads = thread_count(options.execution);
+  for (const Index c : order.components) {
+    const double work = component_work(faces[c], options);
+    if (threads > 1 && threads * work <= left) break;
+    left -= work;
+    ++order.alone;
+  }
+  return order;
+}
+
+}  // namespace mspskel
