@@ -18,13 +18,15 @@ namespace detail {
 struct ArcPoints {
   enum class Kind : std::uint8_t { kInner, kJoint, kLeaf, kDead };
 
+  Index hub_count = 0;
   std::vector<Vector3> x;
   std::vector<Kind> kind;
   std::vector<std::vector<Index>> next;  // neighbours
   std::vector<std::vector<Index>>
       chains;  // the points of each arc in order, hubs included; empty for dead arcs
 
-  explicit ArcPoints(const ArcGraph& graph) : x(graph.hub_position), chains(graph.arcs.size()) {
+  explicit ArcPoints(const ArcGraph& graph)
+      : hub_count(graph.hub_count()), x(graph.hub_position), chains(graph.arcs.size()) {
     kind.assign(x.size(), Kind::kDead);
     const auto at = graph.incidence();
     for (Index h = 0; h < graph.hub_count(); ++h)

@@ -38,30 +38,36 @@ inline std::size_t reach_of_direction(const std::vector<Vector3>& line, double s
   return std::max<std::size_t>(reach, 1);
 }
 
-// Per point the distance to the surface: at every fourth point of a chain, and in proportion between, which
-// is right to a step or two. Cost: a query for each fourth point.
-inline std::vector<double> thickness_at(const ArcPoints& points, const BoundingVolumeHierarchy& solid,
-                                        const Execution& execution) {
-  constexpr std::size_t kEvery = 4;
-  std::vector<double> thickness(points.x.size(), 0.0);
+// The distance of every hub to the surface.
+inline std::vector<double> clearance_of_hubs(const ArcPoints& points, const BoundingVolumeHierarchy& solid,
+                                             const Execution& execution) {
+  std::vector<double> clearance(static_cast<std::size_t>(points.hub_count), 0.0);
   parallel_for(
-      static_cast<Index>(points.chains.size()), "arcs", execution, [] { return 0; },
-      [&](Index c, int) {
-        const auto& chain = points.chains[c];
-        if (chain.size() < 3) return;
-        double before = solid.distance(points.x[chain[0]]);
-        for (std::size_t from = 0; from + 1 < chain.size(); from += kEvery) {
-          const std::size_t to = std::min(from + kEvery, chain.size() - 1);
-          const double after = solid.distance(points.x[chain[to]]);
-          // Hubs get none: joints have no direction, and a leaf's end has that of its last step.
-          for (std::size_t k = std::max<std::size_t>(from, 1); k < to; ++k)
-            thickness[chain[k]] =
-                before + (after - before) * static_cast<double>(k - from) / static_cast<double>(to - from);
-          before = after;
-        }
-      },
-      1);
-  return thickness;
+      points.hub_count, "arcs", execution, [] { return 0; },
+      [&](Index h, int) {
+        if (points.kind[h] != ArcPoints::Kind::kDead) clearance[h] = solid.distance(points.x[h]);
+      });
+  return clearance;
+}
+
+// Per inner point of a chain the distance to the surface: that of the hubs, at every fourth point, and in
+// proportion between, which is right to a step or two. Hubs get none: joints have no direction, and a leaf's
+// end has that of its last step. Cost: a query for each fourth point.
+inline void find_thickness(const ArcPoints& points, const std::vector<Index>& chain,
+                           const BoundingVolumeHierarchy& solid, const std::vector<double>& clearance_of_hub,
+                           std::vector<double>& thickness) {
+  constexpr std::size_t kEvery = 4;
+  if (chain.size() < 3) return;
+  double before = clearance_of_hub[chain.front()];
+  for (std::size_t from = 0; from + 1 < chain.size(); from += kEvery) {
+    const std::size_t to = std::min(from + kEvery, chain.size() - 1);
+    const double after =
+        to + 1 < chain.size() ? solid.distance(points.x[chain[to]]) : clearance_of_hub[chain[to]];
+    for (std::size_t k = std::max<std::size_t>(from, 1); k < to; ++k)
+      thickness[chain[k]] =
+          before + (after - before) * static_cast<double>(k - from) / static_cast<double>(to - from);
+    before = after;
+  }
 }
 
 // Makes `line` the points of a chain. Returns their mean distance.
@@ -75,45 +81,66 @@ inline double lay_out(const ArcPoints& points, const std::vector<Index>& chain, 
   return length / static_cast<double>(std::max<std::size_t>(line.size(), 2) - 1);
 }
 
-// Unit tangents of inner points and leaf ends from a smoothed copy of the chains; zero elsewhere.
+// Unit tangents of a chain's inner points and leaf ends from a smoothed copy of it; zero elsewhere.
 // `thickness`: per point the distance to the surface.
-inline std::vector<Vector3> smooth_tangents(const ArcPoints& points, const std::vector<double>& thickness,
-                                            int smoothing) {
-  std::vector<Vector3> tangent(points.x.size(), Vector3::Zero());
+inline void find_tangents(const ArcPoints& points, const std::vector<Index>& chain,
+                          const std::vector<double>& thickness, int smoothing,
+                          std::vector<Vector3>& tangent) {
   std::vector<Vector3> line, copy;
-  for (const auto& chain : points.chains) {
-    const double spacing = lay_out(points, chain, line);
-    for (int round = 0; round < smoothing; ++round) {
-      copy = line;
-      for (std::size_t i = 1; i + 1 < line.size(); ++i)
-        line[i] = 0.5 * copy[i] + 0.25 * (copy[i - 1] + copy[i + 1]);
-    }
-    for (std::size_t i = 0; i < chain.size(); ++i) {
-      if (points.kind[chain[i]] == ArcPoints::Kind::kJoint) continue;
-      const std::size_t reach = reach_of_direction(line, spacing, i, thickness[chain[i]]);
-      const Vector3 along = line[std::min(i + reach, line.size() - 1)] - line[i - std::min(i, reach)];
-      if (along.norm() > 0) tangent[chain[i]] = along.normalized();
-    }
+  const double spacing = lay_out(points, chain, line);
+  for (int round = 0; round < smoothing; ++round) {
+    copy = line;
+    for (std::size_t i = 1; i + 1 < line.size(); ++i)
+      line[i] = 0.5 * copy[i] + 0.25 * (copy[i - 1] + copy[i + 1]);
   }
-  return tangent;
+  for (std::size_t i = 0; i < chain.size(); ++i) {
+    if (points.kind[chain[i]] == ArcPoints::Kind::kJoint) continue;
+    const std::size_t reach = reach_of_direction(line, spacing, i, thickness[chain[i]]);
+    const Vector3 along = line[std::min(i + reach, line.size() - 1)] - line[i - std::min(i, reach)];
+    if (along.norm() > 0) tangent[chain[i]] = along.normalized();
+  }
 }
 
-// For every tangent a unit vector across it where the section's first ray goes. Along a chain it turns as
-// little as the tangents let it; it begins towards the nearest surface, so all rays turn with the model.
-inline std::vector<Vector3> first_rays(const ArcPoints& points, const std::vector<Vector3>& tangent,
-                                       const BoundingVolumeHierarchy& solid) {
-  std::vector<Vector3> ray(points.x.size(), Vector3::Zero());
-  for (const auto& chain : points.chains) {
-    Vector3 last = Vector3::Zero();
-    for (const Index i : chain) {
-      if (tangent[i].isZero()) continue;
-      last -= last.dot(tangent[i]) * tangent[i];
-      if (last.norm() < 0.1) last = direction_to_surface(solid, points.x[i], tangent[i]);
-      last.normalize();
-      ray[i] = last;
-    }
+// For every tangent of a chain a unit vector across it where the section's first ray goes. Along the chain it
+// turns as little as the tangents let it; it begins towards the nearest surface, so all rays turn with the
+// model.
+inline void find_first_rays(const ArcPoints& points, const std::vector<Index>& chain,
+                            const std::vector<Vector3>& tangent, const BoundingVolumeHierarchy& solid,
+                            std::vector<Vector3>& ray) {
+  Vector3 last = Vector3::Zero();
+  for (const Index i : chain) {
+    if (tangent[i].isZero()) continue;
+    last -= last.dot(tangent[i]) * tangent[i];
+    if (last.norm() < 0.1) last = direction_to_surface(solid, points.x[i], tangent[i]);
+    last.normalize();
+    ray[i] = last;
   }
-  return ray;
+}
+
+// What the points of all chains know of where they run.
+struct ArcCourse {
+  std::vector<double> clearance_of_hub;     // distance to the surface
+  std::vector<double> thickness;            // per point, likewise; 0 for hubs
+  std::vector<Vector3> tangent, first_ray;  // per point, unit vectors; zero where there is none
+};
+
+inline ArcCourse find_course(const ArcPoints& points, const BoundingVolumeHierarchy& solid, int smoothing,
+                             const Execution& execution) {
+  ArcCourse course;
+  course.clearance_of_hub = clearance_of_hubs(points, solid, execution);
+  course.thickness.assign(points.x.size(), 0.0);
+  course.tangent.assign(points.x.size(), Vector3::Zero());
+  course.first_ray.assign(points.x.size(), Vector3::Zero());
+  parallel_for(
+      static_cast<Index>(points.chains.size()), "arcs", execution, [] { return 0; },
+      [&](Index c, int) {
+        const std::vector<Index>& chain = points.chains[c];
+        find_thickness(points, chain, solid, course.clearance_of_hub, course.thickness);
+        find_tangents(points, chain, course.thickness, smoothing, course.tangent);
+        find_first_rays(points, chain, course.tangent, solid, course.first_ray);
+      },
+      1);
+  return course;
 }
 
 // Of an end that stays: far above what the stiffness of the thickest solid comes to.
@@ -167,41 +194,33 @@ inline Pull section_pull(const BoundingVolumeHierarchy& solid, const Vector3& x,
 
 // Near a joint a section is that of the part which the arc leaves, and says nothing of where it runs: there
 // weights fall with the distance.
-inline void loosen_near_joints(const ArcPoints& points, const BoundingVolumeHierarchy& solid,
-                               const Execution& execution, std::vector<Pull>& pulls) {
+inline void loosen_near_joints(const ArcPoints& points, const std::vector<Index>& chain,
+                               const std::vector<double>& clearance_of_hub, std::vector<Pull>& pulls) {
   constexpr double kReach = 2;  // radii of the joint's ball
-  std::vector<double> reach(points.x.size(), 0.0);
-  parallel_for(
-      points.count(), "arcs", execution, [] { return 0; },
-      [&](Index i, int) {
-        if (points.next[i].size() > 2) reach[i] = kReach * solid.distance(points.x[i]);
-      });
-  for (const auto& chain : points.chains) {
-    if (chain.empty()) continue;
-    for (const Index joint : {chain.front(), chain.back()})
-      for (const Index i : chain) {
-        if (points.kind[i] != ArcPoints::Kind::kInner) continue;
-        const double distance = (points.x[i] - points.x[joint]).norm();
-        if (distance < reach[joint]) pulls[i].weight *= std::max(kFreeWeight, distance / reach[joint]);
-      }
+  if (chain.empty()) return;
+  for (const Index joint : {chain.front(), chain.back()}) {
+    const double reach = points.next[joint].size() > 2 ? kReach * clearance_of_hub[joint] : 0.0;
+    for (const Index i : chain) {
+      if (points.kind[i] != ArcPoints::Kind::kInner) continue;
+      const double distance = (points.x[i] - points.x[joint]).norm();
+      if (distance < reach) pulls[i].weight *= std::max(kFreeWeight, distance / reach);
+    }
   }
 }
 
 // In its own ball an arc bends one way or not at all. What turns to and fro there follows sections that its
 // own direction tilts, so it is held the stiffer, the more it wavers.
-inline void stiffen_wavers(const ArcPoints& points, const std::vector<double>& thickness,
-                           std::vector<Pull>& pulls) {
+inline void stiffen_wavers(const ArcPoints& points, const std::vector<Index>& chain,
+                           const std::vector<double>& thickness, std::vector<Pull>& pulls) {
   constexpr double kGain = 100;   // of a waver of one radian, and as its square
   constexpr double kSpan = 1.25;  // radii of the ball to each side
   constexpr double kLeast = 6;    // points; thinner limbs are followed
   std::vector<Vector3> line;
-  for (const auto& chain : points.chains) {
-    const double spacing = lay_out(points, chain, line);
-    if (!(spacing > 0)) continue;
-    for (std::size_t i = 1; i + 1 < line.size(); ++i) {
-      const double reach = kSpan * thickness[chain[i]] / spacing;
-      if (reach >= kLeast) pulls[chain[i]].stiffness *= 1 + kGain * std::pow(waver(line, i, reach), 2);
-    }
+  const double spacing = lay_out(points, chain, line);
+  if (!(spacing > 0)) return;
+  for (std::size_t i = 1; i + 1 < line.size(); ++i) {
+    const double reach = kSpan * thickness[chain[i]] / spacing;
+    if (reach >= kLeast) pulls[chain[i]].stiffness *= 1 + kGain * std::pow(waver(line, i, reach), 2);
   }
 }
 
@@ -330,9 +349,7 @@ MSPSKEL_INLINE void center_arcs(ArcGraph& graph, const BoundingVolumeHierarchy& 
     std::vector<double> share(points.x.size(), 1.0);  // of the step
     for (std::size_t a = 0; a < step.size(); ++a)
       for (const Index i : points.chains[a]) share[i] = std::min(share[i], step[a] / options.step);
-    const std::vector<double> thickness = detail::thickness_at(points, solid, execution);
-    const auto tangent = detail::smooth_tangents(points, thickness, options.tangent_smoothing);
-    const auto first_ray = detail::first_rays(points, tangent, solid);
+    const detail::ArcCourse course = detail::find_course(points, solid, options.tangent_smoothing, execution);
     const auto left_out = detail::left_out(points, round);
     std::vector<detail::Pull> pulls(points.x.size());
     parallel_for(
@@ -341,14 +358,19 @@ MSPSKEL_INLINE void center_arcs(ArcGraph& graph, const BoundingVolumeHierarchy& 
           using Kind = detail::ArcPoints::Kind;
           pulls[i] = detail::even_pull(points.x[i], detail::kFreeWeight);
           if (points.kind[i] == Kind::kDead || points.kind[i] == Kind::kJoint || left_out[i]) return;
-          if (!tangent[i].isZero())
-            pulls[i] = detail::section_pull(solid, points.x[i], tangent[i], first_ray[i], share[i], options);
+          if (!course.tangent[i].isZero())
+            pulls[i] = detail::section_pull(solid, points.x[i], course.tangent[i], course.first_ray[i],
+                                            share[i], options);
           if (points.kind[i] == Kind::kLeaf) pulls[i].weight = 0.5 * Eigen::Matrix3d::Identity();
         });
     for (Index i = 0; i < points.count(); ++i)
       if (left_out[i]) pulls[i] = detail::pull_between(points, pulls, i);
-    detail::loosen_near_joints(points, solid, execution, pulls);
-    detail::stiffen_wavers(points, thickness, pulls);
+    parallel_for(
+        static_cast<Index>(points.chains.size()), "arcs", execution, [] { return 0; },
+        [&](Index c, int) {
+          detail::loosen_near_joints(points, points.chains[c], course.clearance_of_hub, pulls);
+          detail::stiffen_wavers(points, points.chains[c], course.thickness, pulls);
+        });
     for (const Index hub : held)
       if (points.kind[hub] != detail::ArcPoints::Kind::kDead)
         pulls[hub] = detail::even_pull(points.x[hub], detail::kHeldWeight);
