@@ -14,17 +14,19 @@ namespace detail {
 class TubeRouter {
  public:
   TubeRouter(ArcGraph& graph, const CollapseTubes& tubes, const SurfaceSnapshot& surface,
-             const BoundingVolumeHierarchy& solid, const CrossingLabels& crossings)
+             const BoundingVolumeHierarchy& solid, const CrossingLabels& crossings,
+             const Execution& execution)
       : graph_(graph),
         tubes_(tubes),
         surface_(surface),
         solid_(solid),
         crossings_(crossings),
         points_(surface, solid, crossings),
-        classes_(tubes, surface, crossings, points_),
+        execution_(execution),
+        classes_(tubes, surface, crossings, points_, execution),
         hubs_{graph.hub_position, std::vector<SettledHubs::Hub>(graph.hub_position.size())} {}
 
-  ClassRouting run(const Execution& execution) {
+  ClassRouting run() {
     const std::vector<bool> in_cycle = arcs_of_cycles(graph_);
     const auto count = std::min(graph_.arcs.size(), tubes_.arcs.tube.size());
     std::vector<Index> arcs;
@@ -32,7 +34,7 @@ class TubeRouter {
       if (in_cycle[a]) arcs.push_back(static_cast<Index>(a));
     for (const Index a : arcs)
       for (const Index hub : graph_.arcs[a].hub) {
-        report_progress(execution.progress, "arcs", 0.0);
+        report_progress(execution_.progress, "arcs", 0.0);
         settle(hub);
       }
     std::atomic<std::size_t> next{0};
@@ -51,7 +53,7 @@ class TubeRouter {
       }
     };
     run_beside(
-        execution, [&] { lead_arcs(execution); }, lead_arcs);
+        execution_, [&] { lead_arcs(execution_); }, lead_arcs);
     return {static_cast<Index>(arcs.size()), routed, abandoned};
   }
 
@@ -113,6 +115,7 @@ class TubeRouter {
   const BoundingVolumeHierarchy& solid_;
   const CrossingLabels& crossings_;
   ChordPoints points_;
+  const Execution& execution_;
   TubeClasses classes_;
   SettledHubs hubs_;
 };
@@ -146,7 +149,7 @@ MSPSKEL_INLINE ClassRouting route_by_class(ArcGraph& graph, const CollapseTubes&
                                            const SurfaceSnapshot& input, const BoundingVolumeHierarchy& solid,
                                            const CrossingLabels& crossings, const Execution& execution) {
   if (crossings.rank() == 0) return {};
-  return detail::TubeRouter(graph, tubes, input, solid, crossings).run(execution);
+  return detail::TubeRouter(graph, tubes, input, solid, crossings, execution).run();
 }
 
 }  // namespace mspskel

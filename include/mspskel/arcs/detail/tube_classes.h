@@ -5,6 +5,7 @@
 
 #include "mspskel/arcs/detail/chord_points.h"
 #include "mspskel/arcs/route_by_class.h"
+#include "mspskel/base/progress.h"
 
 namespace mspskel {
 namespace detail {
@@ -13,10 +14,14 @@ class TubeClasses {
  public:
   // Cost: O(vertices), and a step below the surface a half-edge where some cocycle is a linking number.
   TubeClasses(const CollapseTubes& tubes, const SurfaceSnapshot& surface, const CrossingLabels& crossings,
-              const ChordPoints& points)
+              const ChordPoints& points, const Execution& execution)
       : tubes_(tubes), surface_(surface), points_(points) {
     index_nodes();
-    if (crossings.has_loops()) find_potential();
+    if (!crossings.has_loops()) return;
+    parallel_for(
+        static_cast<Index>(vertices_.size()), "arcs", execution, [] { return 0; },
+        [&](Index i, int) { points_(vertices_[i], ChordPoints::kShallow); });
+    find_potential();
   }
 
   // Calls visit(v) for the vertices of the node's part, ascending.
