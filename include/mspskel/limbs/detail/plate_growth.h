@@ -67,6 +67,7 @@ class PlateGrowth {
         half_area_(half_areas_of_components(surface)),
         tried_(static_cast<std::size_t>(surface.face_count()), false),
         grown_(tried_.size(), 0),
+        asked_(tried_.size(), 0),
         chord_(tried_.size(), -1.0),
         watch_(progress, "arcs") {
     for (Index f = 0; f < surface.face_count(); ++f)
@@ -251,11 +252,11 @@ class PlateGrowth {
       return here < kAlike * slab.thickness && slab.thickness < kAlike * here;
     };
     std::vector<Index> faces{first};
-    grown_[first] = ++growth_;
+    grown_[first] = asked_[first] = ++growth_;
     for (std::size_t i = 0; i < faces.size(); ++i)
       for (Index h = 3 * faces[i]; h < 3 * faces[i] + 3; ++h) {
         const Index f = SurfaceSnapshot::face(surface_.twin[h]);
-        if (grown_[f] == growth_ || !belongs(f)) continue;
+        if (std::exchange(asked_[f], growth_) == growth_ || !belongs(f)) continue;
         grown_[f] = growth_;
         if (is_side(f, slab.across)) tried_[f] = true;
         faces.push_back(f);
@@ -509,7 +510,8 @@ class PlateGrowth {
   std::vector<double> half_area_;  // of each component
   std::vector<Vector3> normal_;    // of each face
   std::vector<bool> tried_;        // faces of sides that have grown
-  std::vector<Index> grown_;       // the last growth that came by
+  std::vector<Index> grown_;       // the last growth that it belongs to
+  std::vector<Index> asked_;       // the last growth that came by
   Index growth_ = 0;
   std::size_t work_ = 0;       // faces that plates came by
   std::vector<double> chord_;  // inward from each face; negative where it was not asked for
