@@ -129,17 +129,17 @@ class InnerNet {
   // have their middles, as those from the rim of a disc have in the middle of the disc, the ways to their
   // vertices are long ones.
   std::vector<std::pair<double, Index>> entries(const Vector3& x) {
-    constexpr std::size_t kWanted = 8;
+    constexpr std::size_t kWanted = 8, kUsual = 64;
     std::vector<std::pair<double, Index>> near, far;
-    for (const std::size_t tried : {64, 1024}) {
-      near.clear();
-      far.clear();
-      for (const auto& entry : nearest_points(x, tried)) {
-        if (near.size() >= kWanted) break;
-        std::vector<std::pair<double, Index>>& kept = is_near_middle(entry.second) ? near : far;
-        if (kept.size() < kWanted && !solid_.segment_crosses(x, point_[entry.second])) kept.push_back(entry);
+    std::size_t seen = 0;
+    for (const std::size_t tried : {std::size_t{16}, kUsual, 16 * kUsual}) {
+      const std::vector<std::pair<double, Index>> found = nearest_points(x, tried);
+      for (; seen < found.size() && near.size() < kWanted; ++seen) {
+        const auto& [distance, v] = found[seen];
+        std::vector<std::pair<double, Index>>& kept = is_near_middle(v) ? near : far;
+        if (kept.size() < kWanted && !solid_.segment_crosses(x, point_[v])) kept.push_back(found[seen]);
       }
-      if (!near.empty() || far.empty()) break;
+      if (near.size() >= kWanted || (tried >= kUsual && (!near.empty() || far.empty()))) break;
     }
     near.insert(near.end(), far.begin(), far.end());
     return near;
@@ -201,17 +201,22 @@ class InnerNet {
   }
 
   // The `count` points nearest to x, or all, by growing distance: from balls round it of growing radius.
-  std::vector<std::pair<double, Index>> nearest_points(const Vector3& x, std::size_t count) const {
-    constexpr double kFirst = 0.02, kBeyondAll = 16;  // model extents
+  std::vector<std::pair<double, Index>> nearest_points(const Vector3& x, std::size_t count) {
+    constexpr double kBeyondAll = 16;   // model extents
+    constexpr std::size_t kPlenty = 3;  // times as many as were wanted
     std::vector<std::pair<double, Index>> found;
-    for (double radius = kFirst; found.size() < count && radius < kBeyondAll; radius *= 2) {
+    double radius = usual_radius_;
+    for (;; radius *= 1.5) {
       found.clear();
       const Vector3 reach = Vector3::Constant(radius);
       index_.in_box(x - reach, x + reach, [&](Index v) {
         const double distance = (point_[v] - x).norm();
         if (distance <= radius) found.push_back({distance, v});
       });
+      if (found.size() >= count || radius > kBeyondAll) break;
     }
+    // Places are about as dense as those that were asked for before.
+    if (radius <= kBeyondAll) usual_radius_ = found.size() > kPlenty * count ? 0.7 * radius : radius;
     const auto end = found.begin() + static_cast<std::ptrdiff_t>(std::min(found.size(), count));
     std::partial_sort(found.begin(), end, found.end());
     found.erase(end, found.end());
@@ -228,6 +233,7 @@ class InnerNet {
   std::vector<double> clearance_;             // 0: no chord, or a gate outside
   Index asked_ = 0;                           // for clearances, one by one
   BoxIndex index_;                            // of the usable points
+  double usual_radius_ = 0.01;                // of the ball that held as many of them as were wanted
   std::vector<EdgeState> edge_;               // per half-edge
 };
 
