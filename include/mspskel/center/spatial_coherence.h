@@ -21,7 +21,7 @@ inline void validate(const CoherenceOptions& o) {
 // Replaces the skeletal points s by the solution x of (C + αL) x = C s, with C the diagonal of confidences
 // and L the graph Laplacian of the mesh with rows divided by the valence: one sparse solve. More of it, or
 // repeated, turns medial sheets into membranes and pulls arcs off centre. Cost: a sparse Cholesky
-// factorisation, about O(vertices^1.5).
+// factorisation, about O(vertices^1.5); of more than 20,000 vertices or 128 handles steps of O(vertices).
 void apply_spatial_coherence(const SurfaceSnapshot& surface, const CoherenceOptions& options,
                              SkeletonMesh& mesh);
 

@@ -53,10 +53,15 @@ MSPSKEL_INLINE void apply_spatial_coherence(const SurfaceSnapshot& surface, cons
   }
   Eigen::SparseMatrix<double> matrix(n, n);
   matrix.setFromTriplets(entries.begin(), entries.end());
-  constexpr Index kFew = 20000;  // more rows than that take longer to eliminate than to approach
+  // More rows than that take longer to eliminate than to approach, and so do those of many handles, which
+  // leave no small cuts to divide the surface at.
+  constexpr Index kFew = 20000, kFewHandles = 128;
+  const Index faces = surface.face_count(), edges = surface.halfedge_count() / 2;
+  const Index handles = surface.component_count - (n - edges + faces) / 2;
+  const bool large = n > kFew || handles > kFewHandles;
   Eigen::MatrixX3d guess(n, 3);
   for (Index v = 0; v < n; ++v) guess.row(v) = mesh.position[v].transpose();
-  const auto solution = n > kFew ? solve_large(matrix, right, guess) : solve_by_elimination(matrix, right);
+  const auto solution = large ? solve_large(matrix, right, guess) : solve_by_elimination(matrix, right);
   if (!solution) return;  // the matrix is positive definite, so only rounding could do this
   for (Index v = 0; v < n; ++v) mesh.position[v] = solution->row(v).transpose();
 }
