@@ -28,10 +28,12 @@ class CoreSolver {
         pivot_(matrix.diagonal),
         inverse_(pivot_.size()),
         is_eliminated_(pivot_.size(), 0) {
-    for (int i = 0; i < static_cast<int>(pivot_.size()); ++i)
+    for (int i = 0; i < static_cast<int>(pivot_.size()); ++i) {
+      entries_[i].reserve(static_cast<std::size_t>(matrix.even.col(i).nonZeros()));
       for (Eigen::SparseMatrix<double>::InnerIterator it(matrix.even, i); it; ++it)
         if (it.row() != i)
           entries_[i].push_back({static_cast<int>(it.row()), it.value() * Eigen::Matrix3d::Identity()});
+    }
   }
 
   std::size_t core_size() const { return core_.size(); }

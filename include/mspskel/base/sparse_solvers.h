@@ -176,8 +176,8 @@ class BlockFactors {
 inline std::optional<Eigen::VectorXd> solve_coupled(const CoupledMatrix& coupled,
                                                     const Eigen::VectorXd& right,
                                                     const Eigen::VectorXd& guess, bool has_many_cycles) {
-  // Enough for rounds that begin where the one before ended.
-  constexpr double kTolerance = 1e-4;
+  // Enough for rounds that begin where the one before ended and go part of the way.
+  constexpr double kTolerance = 1e-3;
   constexpr int kMostSteps = 1000;
   if (has_many_cycles) {
     detail::CoreSolver core(coupled);
