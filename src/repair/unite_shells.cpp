@@ -127,13 +127,10 @@ class Union {
     // Where shells nearly touch, their own triangles leave handles that a margin closes.
     for (const double margin : {0.0, 0.5 * std::sqrt(3.0) * cell}) {
       WholePieces pieces = detail::without_crumbs(detail::boundary_of_union(group_, cell, margin, execution));
-      if (pieces.genus <= most_ && is_better(pieces)) {
-        pieces.soup = detail::without_short_edges(pieces.soup, detail::kShortEdge * cell, watch);
-        best_ = std::move(pieces);
-        is_cut_ = false;
-      }
-      if (best_ && faults(*best_) == 0) return;
+      if (pieces.genus <= most_ && is_better(pieces)) best_ = std::move(pieces);
+      if (best_ && faults(*best_) == 0) break;
     }
+    if (best_) best_->soup = detail::without_short_edges(best_->soup, detail::kShortEdge * cell, watch);
   }
 
   // Nothing if the union has more handles than its shells have and make by crossing: an assembly of parts in
