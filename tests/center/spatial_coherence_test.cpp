@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "support/meshes.h"
+#include "topology/voxel_solids.h"
 
 using namespace mspskel;
 using namespace mspskel::test;
@@ -55,6 +56,33 @@ TEST_CASE("A constant field stays, whatever the confidences") {
         farthest = std::max(farthest, (p - place).norm());
       CHECK(farthest < 1e-9);
     }
+  }
+}
+
+// The Laplacian is symmetric, so what the points move, by their confidences, adds up to nothing. Beside wide
+// slices neighbours' points do not scatter, and only errors take confidence away.
+TEST_CASE("The mean of the points by their confidences stays, however the system is solved") {
+  const SurfaceSnapshot few = make_snapshot(sphere(150)), many = make_snapshot(sphere(21000)),
+                        handles = make_snapshot(to_mesh(boundary(foam({6, 6, 6}))));
+  REQUIRE(handles.vertex_count() < 20000);
+  REQUIRE(handles.component_count - (handles.vertex_count() - handles.face_count() / 2) / 2 > 128);
+  for (const SurfaceSnapshot* surface : {&few, &many, &handles}) {
+    SkeletonMesh before = random_points(*surface, 5);
+    for (std::size_t v = 0; v < before.position.size(); ++v) {
+      before.perimeter[v] = 1e12;
+      before.valid[v] = 1;
+    }
+    const SkeletonMesh after = smoothed(*surface, before);
+    Vector3 sum = Vector3::Zero();
+    double moves = 0;
+    for (std::size_t v = 0; v < before.position.size(); ++v) {
+      const double confidence = 1e-6 + (1 - before.error[v]) * (1 - before.error[v]);
+      const Vector3 move = after.position[v] - before.position[v];
+      sum += confidence * move;
+      moves += confidence * move.norm();
+    }
+    CHECK(moves > 0.01 * static_cast<double>(before.position.size()));
+    CHECK(sum.norm() < 1e-6 * moves);
   }
 }
 

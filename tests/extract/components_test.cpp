@@ -5,6 +5,7 @@
 #include "mspskel/extract_skeleton.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
 #include "mspskel/mesh/component_solids.h"
+#include "mspskel/pipeline/component_order.h"
 #include "mspskel/refine/find_digits.h"
 #include "mspskel/samples/samples.h"
 
@@ -174,6 +175,28 @@ TEST_CASE("Stages of several components are joined in the frame of the whole") {
   double whole = 0;
   for (const double a : result.surface.vertex_area) whole += a;
   CHECK(area == Approx(whole).epsilon(0.01));  // the nodes are of surfaces that are coarser
+}
+
+TEST_CASE("What is more than a thread's share of the work left has all threads, the others one each") {
+  ExtractOptions options;
+  options.execution.threads = 2;
+  const auto alone = [&](const std::vector<std::size_t>& faces) {
+    return order_components(faces, options).alone;
+  };
+  CHECK(order_components({10, 3000, 10, 200}, options).components == std::vector<Index>{1, 3, 0, 2});
+  CHECK(alone({3000, 200, 100}) == 3);  // nothing is left to be beside 100
+  CHECK(alone({3000, 200, 100, 100}) == 1);
+  CHECK(alone({3000, 3000}) == 0);
+  CHECK(alone({3000, 3000, 3000}) == 0);
+  CHECK(alone({40000, 3200, 3200}) == 0);  // coarsened to as many
+  options.coarsen = false;
+  CHECK(alone({40000, 3200, 3200}) == 1);
+  options.execution.threads = 1;
+  CHECK(alone({3000, 3000}) == 2);
+  options.execution.threads = 4;
+  CHECK(alone({3000, 3000, 3000}) == 3);
+  CHECK(alone({3000, 3000, 3000, 3000}) == 0);
+  CHECK(alone({}) == 0);
 }
 
 TEST_CASE("Components give the same bytes on any number of threads, and a budget of nodes is shared") {
