@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "mspskel/pipeline/component_order.h"
@@ -11,6 +12,7 @@ namespace {
 
 // A component is begun by what comes before its skeletal points, and ended by what comes after.
 constexpr const char* kMiddle = "skeletal points";
+constexpr double kEndless = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
@@ -46,15 +48,17 @@ void ProgressEstimate::expect_stages(const ExtractOptions& options, bool fine) {
 void ProgressEstimate::expect_components(const std::vector<std::size_t>& faces,
                                          const ExtractOptions& options) {
   if (faces.size() < 2) return;
-  const ComponentOrder order = order_components(faces, options);
+  const double working_faces = options.coarsen ? 2.0 * options.coarsening.vertices : kEndless;
+  const int threads = thread_count(options.execution);
+  const ComponentOrder order = order_components(faces, working_faces, threads);
   pieces_.clear();
   double beside = 0;
   for (std::size_t i = 0; i < faces.size(); ++i) {
-    const double work = component_work(faces[order.components[i]], options);
+    const double work = component_work(faces[order.components[i]], working_faces);
     if (i < order.alone)
       pieces_.push_back(work);
     else
-      beside += work / thread_count(options.execution);
+      beside += work / threads;
   }
   if (beside > 0) pieces_.push_back(beside);
   const double all = std::accumulate(pieces_.begin(), pieces_.end(), 0.0);

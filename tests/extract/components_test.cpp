@@ -178,25 +178,20 @@ TEST_CASE("Stages of several components are joined in the frame of the whole") {
 }
 
 TEST_CASE("What is more than a thread's share of the work left has all threads, the others one each") {
-  ExtractOptions options;
-  options.execution.threads = 2;
-  const auto alone = [&](const std::vector<std::size_t>& faces) {
-    return order_components(faces, options).alone;
+  const auto alone = [](const std::vector<std::size_t>& faces, int threads, double working_faces = 3200) {
+    return order_components(faces, working_faces, threads).alone;
   };
-  CHECK(order_components({10, 3000, 10, 200}, options).components == std::vector<Index>{1, 3, 0, 2});
-  CHECK(alone({3000, 200, 100}) == 3);  // nothing is left to be beside 100
-  CHECK(alone({3000, 200, 100, 100}) == 1);
-  CHECK(alone({3000, 3000}) == 0);
-  CHECK(alone({3000, 3000, 3000}) == 0);
-  CHECK(alone({40000, 3200, 3200}) == 0);  // coarsened to as many
-  options.coarsen = false;
-  CHECK(alone({40000, 3200, 3200}) == 1);
-  options.execution.threads = 1;
-  CHECK(alone({3000, 3000}) == 2);
-  options.execution.threads = 4;
-  CHECK(alone({3000, 3000, 3000}) == 3);
-  CHECK(alone({3000, 3000, 3000, 3000}) == 0);
-  CHECK(alone({}) == 0);
+  CHECK(order_components({10, 3000, 10, 200}, 3200, 2).components == std::vector<Index>{1, 3, 0, 2});
+  CHECK(alone({3000, 200, 100}, 2) == 3);  // nothing is left to be beside 100
+  CHECK(alone({3000, 200, 100, 100}, 2) == 1);
+  CHECK(alone({3000, 3000}, 2) == 0);
+  CHECK(alone({3000, 3000, 3000}, 2) == 0);
+  CHECK(alone({40000, 3200, 3200}, 2) == 0);  // coarsened to as many
+  CHECK(alone({40000, 3200, 3200}, 2, 1e9) == 1);
+  CHECK(alone({3000, 3000}, 1) == 2);
+  CHECK(alone({3000, 3000, 3000}, 4) == 3);
+  CHECK(alone({3000, 3000, 3000, 3000}, 4) == 0);
+  CHECK(alone({}, 4) == 0);
 }
 
 TEST_CASE("Components give the same bytes on any number of threads, and a budget of nodes is shared") {

@@ -6,8 +6,7 @@
 #include <numeric>
 #include <vector>
 
-#include "mspskel/base/progress.h"
-#include "mspskel/extract_skeleton.h"
+#include "mspskel/base/types.h"
 
 namespace mspskel {
 
@@ -19,29 +18,28 @@ struct ComponentOrder {
   std::size_t alone = 0;          // so many of them one after the other, then the others side by side
 };
 
-// What a component takes, roughly, in faces of a surface that the stages walk on. A finer one is coarsened to
-// it, at so much less a face.
-inline double component_work(std::size_t faces, const ExtractOptions& options) {
+// What a component takes, roughly, in faces of a surface that the stages walk on, which has at most
+// `working_faces`. A finer one is coarsened to it, at so much less a face.
+inline double component_work(std::size_t faces, double working_faces) {
   constexpr double kCoarsening = 1.0 / 16;
   const auto count = static_cast<double>(faces);
-  if (!options.coarsen) return count;
-  return std::min(count, 2.0 * options.coarsening.vertices) + kCoarsening * count;
+  return count <= working_faces ? count : working_faces + kCoarsening * count;
 }
 
 // `faces`: those of each component. A component shares out its own work among the threads, but not all of it:
 // it is alone only where it is more than one thread's share of what is left. The others have a thread each,
 // which leaves none without work.
-inline ComponentOrder order_components(const std::vector<std::size_t>& faces, const ExtractOptions& options) {
+inline ComponentOrder order_components(const std::vector<std::size_t>& faces, double working_faces,
+                                       int threads) {
   ComponentOrder order;
   order.components.resize(faces.size());
   std::iota(order.components.begin(), order.components.end(), 0);
   std::stable_sort(order.components.begin(), order.components.end(),
                    [&](Index a, Index b) { return faces[a] > faces[b]; });
   double left = 0;
-  for (const std::size_t count : faces) left += component_work(count, options);
-  const int threads = thread_count(options.execution);
+  for (const std::size_t count : faces) left += component_work(count, working_faces);
   for (const Index c : order.components) {
-    const double work = component_work(faces[c], options);
+    const double work = component_work(faces[c], working_faces);
     if (threads > 1 && threads * work <= left) break;
     left -= work;
     ++order.alone;
