@@ -17,8 +17,9 @@ namespace detail {
 // A symmetric positive definite matrix of three by three blocks. Points that have few neighbours are
 // eliminated, the fewest first; what eliminating couples counts as neighbours. Lines leave nothing but their
 // ends, and trees nothing at all. Of a graph of many cycles a core remains, whose factors would fill in: that
-// is solved by conjugate gradients, with the blocks of its diagonal as preconditioner. The stiffness along
-// the lines, which makes steps many, is in the core no more.
+// is solved by conjugate gradients, with a symmetric Gauss-Seidel sweep of blocks as preconditioner. In
+// Eisenstat's form (SIAM J. Sci. Stat. Comput. 1981) a step costs what one product with the core does. The
+// stiffness along the lines, which makes steps many, is in the core no more.
 class CoreSolver {
  public:
   static constexpr std::size_t kMostNeighbours = 8;
@@ -65,6 +66,7 @@ class CoreSolver {
       core_.push_back(i);
       if (!invert(i)) return false;
     }
+    gather_core();
     return true;
   }
 
@@ -133,54 +135,104 @@ class CoreSolver {
     return true;
   }
 
+  // Moves the core's rows side by side, which are read once a step.
+  void gather_core() {
+    std::vector<int> place(pivot_.size(), -1);
+    for (int c = 0; c < static_cast<int>(core_.size()); ++c) {
+      const int i = core_[c];
+      place[i] = c;
+      core_pivot_.push_back(pivot_[i]);
+      core_inverse_.push_back(inverse_[i]);
+    }
+    core_begin_.assign(1, 0);
+    for (int c = 0; c < static_cast<int>(core_.size()); ++c) {
+      for (const Entry& e : entries_[core_[c]])
+        if (place[e.column] < c) below_.push_back({place[e.column], e.block});
+      core_begin_.push_back(static_cast<int>(below_.size()));
+      entries_[core_[c]] = {};
+    }
+  }
+
+  // With the core L + D + Lᵀ: (D + L)⁻¹ y and (D + L)⁻ᵀ y, in place.
+  void sweep_down(Eigen::VectorXd& y) const {
+    for (int c = 0; c < static_cast<int>(core_.size()); ++c) {
+      Eigen::Vector3d left = row_of_three(y, c);
+      for (int k = core_begin_[c]; k < core_begin_[c + 1]; ++k)
+        left -= below_[k].block * row_of_three(y, below_[k].column);
+      row_of_three(y, c) = core_inverse_[c] * left;
+    }
+  }
+  void sweep_up(Eigen::VectorXd& y) const {
+    for (int c = static_cast<int>(core_.size()) - 1; c >= 0; --c) {
+      const Eigen::Vector3d known = core_inverse_[c] * row_of_three(y, c);
+      row_of_three(y, c) = known;
+      for (int k = core_begin_[c]; k < core_begin_[c + 1]; ++k)
+        row_of_three(y, below_[k].column) -= below_[k].block.transpose() * known;
+    }
+  }
+
+  // What x leaves of the right side.
+  Eigen::VectorXd rest(const Eigen::VectorXd& right, const Eigen::VectorXd& x) const {
+    Eigen::VectorXd r(right.size());
+    for (int c = 0; c < static_cast<int>(core_.size()); ++c) {
+      const Eigen::Vector3d own = row_of_three(x, c);
+      Eigen::Vector3d left = row_of_three(right, c) - core_pivot_[c] * own;
+      for (int k = core_begin_[c]; k < core_begin_[c + 1]; ++k) {
+        left -= below_[k].block * row_of_three(x, below_[k].column);
+        row_of_three(r, below_[k].column) -= below_[k].block.transpose() * own;
+      }
+      row_of_three(r, c) = left;
+    }
+    return r;
+  }
+
   // Conjugate gradients from the core's part of x.
   bool solve_core(const Eigen::VectorXd& right, Eigen::VectorXd& x, double tolerance, int most_steps) {
+    const auto size = static_cast<int>(core_.size());
     const auto rows = static_cast<Eigen::Index>(3 * core_.size());
-    Eigen::VectorXd r(rows), z(rows), p(x.size()), product(rows);
-    const auto multiply = [&](const Eigen::VectorXd& y) {
-      for (int c = 0; c < static_cast<int>(core_.size()); ++c) {
-        const int i = core_[c];
-        Eigen::Vector3d sum = pivot_[i] * row_of_three(y, i);
-        for (const Entry& e : entries_[i]) sum += e.block * row_of_three(y, e.column);
-        row_of_three(product, c) = sum;
-      }
-    };
-    const auto precondition = [&] {
-      for (int c = 0; c < static_cast<int>(core_.size()); ++c)
-        row_of_three(z, c) = inverse_[core_[c]] * row_of_three(r, c);
-    };
-    multiply(x);
-    for (int c = 0; c < static_cast<int>(core_.size()); ++c) {
-      row_of_three(r, c) = row_of_three(right, core_[c]) - row_of_three(product, c);
-      row_of_three(p, core_[c]).setZero();
+    Eigen::VectorXd goal(rows), y(rows), z(rows), way(rows), change(rows);
+    for (int c = 0; c < size; ++c) {
+      row_of_three(goal, c) = row_of_three(right, core_[c]);
+      row_of_three(y, c) = row_of_three(x, core_[c]);
     }
-    precondition();
-    double rho = r.dot(z), rho_before = 1;
-    const double goal = tolerance * tolerance * rho;
-    for (steps_ = 0; rho > goal; ++steps_) {
+    // Of what is left of the right side, swept down.
+    Eigen::VectorXd r = rest(goal, y);
+    sweep_down(r);
+    const auto weigh = [&] {
+      for (int c = 0; c < size; ++c) row_of_three(z, c) = core_pivot_[c] * row_of_three(r, c);
+      return r.dot(z);
+    };
+    double rho = weigh();
+    const double least = tolerance * tolerance * rho;
+    Eigen::VectorXd p = z;
+    for (steps_ = 0; rho > least; ++steps_) {
       if (steps_ == most_steps) return false;
-      const double beta = steps_ == 0 ? 0.0 : rho / rho_before;
-      for (int c = 0; c < static_cast<int>(core_.size()); ++c)
-        row_of_three(p, core_[c]) = row_of_three(z, c) + beta * row_of_three(p, core_[c]);
-      multiply(p);
-      double curvature = 0;
-      for (int c = 0; c < static_cast<int>(core_.size()); ++c)
-        curvature += row_of_three(p, core_[c]).dot(row_of_three(product, c));
-      const double alpha = rho / curvature;
-      for (int c = 0; c < static_cast<int>(core_.size()); ++c)
-        row_of_three(x, core_[c]) += alpha * row_of_three(p, core_[c]);
-      r -= alpha * product;
-      precondition();
-      rho_before = std::exchange(rho, r.dot(z));
+      way = p;
+      sweep_up(way);
+      for (int c = 0; c < size; ++c)
+        row_of_three(change, c) = row_of_three(p, c) - core_pivot_[c] * row_of_three(way, c);
+      sweep_down(change);
+      change += way;
+      const double alpha = rho / p.dot(change);
+      y += alpha * way;
+      r -= alpha * change;
+      const double before = std::exchange(rho, weigh());
+      p = z + rho / before * p;
     }
+    for (int c = 0; c < size; ++c) row_of_three(x, core_[c]) = row_of_three(y, c);
     return std::isfinite(rho);
   }
 
-  std::vector<std::vector<Entry>> entries_;  // per row, off the diagonal; of an eliminated one as at its turn
-  std::vector<Eigen::Matrix3d> pivot_;       // the diagonal, likewise
-  std::vector<Eigen::Matrix3d> inverse_;     // of pivots
+  std::vector<std::vector<Entry>>
+      entries_;  // per row, off the diagonal; of an eliminated one as at its turn, of the core none
+  std::vector<Eigen::Matrix3d> pivot_;    // the diagonal, likewise
+  std::vector<Eigen::Matrix3d> inverse_;  // of pivots
   std::vector<std::uint8_t> is_eliminated_;
   std::vector<int> order_, core_;
+  // Of the core, by its own numbers: the diagonal, its inverse, and the blocks of each row before it.
+  std::vector<Eigen::Matrix3d> core_pivot_, core_inverse_;
+  std::vector<int> core_begin_;
+  std::vector<Entry> below_;
   int steps_ = 0;
 };
 
