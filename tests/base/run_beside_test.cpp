@@ -1,5 +1,6 @@
-// Two pieces of work at the same time: both are done whatever the threads, no exception is lost, and both
-// stop where the caller asks for it.
+// Pieces of work at the same time, two or many: each is done once whatever the threads, no exception is lost,
+// and all stop where the caller asks for it.
+#include <atomic>
 #include <catch2/catch.hpp>
 #include <stdexcept>
 #include <string>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "mspskel/base/progress.h"
+#include "mspskel/base/run_each_beside.h"
 
 using namespace mspskel;
 
@@ -109,5 +111,74 @@ TEST_CASE("Where the near side fails the other one stops, and a callback that sa
     CHECK_THROWS_WITH(run_beside(
                           with_threads(threads), [] { throw std::runtime_error("near"); }, work_without_end),
                       "near");
+  }
+}
+
+TEST_CASE("Each piece is done once, on one thread, whatever the number of threads") {
+  for (const int threads : {1, 2, 5})
+    for (const Index count : {0, 1, 2, 40}) {
+      std::vector<int> done(static_cast<std::size_t>(count), 0);
+      std::atomic<int> others{0};
+      run_each_beside(count, with_threads(threads), [&](Index i, const Execution& aside) {
+        if (aside.threads != 1) ++others;
+        ++done[i];
+      });
+      CHECK(others == 0);
+      CHECK(done == std::vector<int>(static_cast<std::size_t>(count), 1));
+    }
+}
+
+TEST_CASE("Two pieces that wait for each other are there at the same time") {
+#ifdef _OPENMP
+  std::atomic<int> there{0};
+  run_each_beside(2, with_threads(2), [&](Index, const Execution&) {
+    ++there;
+    while (there < 2) std::this_thread::yield();
+  });
+  CHECK(there == 2);
+#endif
+}
+
+TEST_CASE("What a piece throws ends the others and is thrown again") {
+  for (const int threads : {1, 2, 5})
+    for (const Index thrower : {0, 1}) {
+      std::atomic<int> begun{0};
+      CHECK_THROWS_WITH(run_each_beside(100, with_threads(threads),
+                                        [&](Index i, const Execution& aside) {
+                                          ++begun;
+                                          if (i == thrower) throw std::runtime_error("piece");
+                                          if (i > thrower) work_without_end(aside);
+                                        }),
+                        "piece");
+      CHECK(begun <= threads + 1);
+    }
+}
+
+TEST_CASE("The callback is asked on the calling thread, also while only others go on, and stops all") {
+#ifdef _OPENMP
+  const std::vector<int> numbers{1, 2, 5};
+#else
+  const std::vector<int> numbers{1};
+#endif
+  for (const int threads : numbers) {
+    Execution execution = with_threads(threads);
+    const std::thread::id caller = std::this_thread::get_id();
+    std::atomic<bool> elsewhere_begun{false};
+    int asked = 0, wrong = 0;
+    execution.progress = [&](const char* stage, double share) {
+      if (std::this_thread::get_id() != caller || std::string(stage) != "piece" || share != 0.5) ++wrong;
+      return ++asked < 3;
+    };
+    const auto piece = [&](Index, const Execution& aside) {
+      if (threads > 1 && std::this_thread::get_id() == caller) {
+        while (!elsewhere_begun) std::this_thread::yield();
+        return;
+      }
+      elsewhere_begun = true;
+      work_without_end(aside);
+    };
+    CHECK_THROWS_AS(run_each_beside(2, execution, piece), Cancelled);
+    CHECK(asked == 3);
+    CHECK(wrong == 0);
   }
 }

@@ -17,11 +17,11 @@ Index aim_ends(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVo
 
 // Leaf arcs that stand for a limb's tip (leaves_of_tips) are led straight to its target from their last point
 // that sees it, up to the one nearest to it, and along the middle of the solid from their joint where none
-// does, as in a bent twig; those that end within `slack` half widths of the limb from it stay, or a quarter of
-// its radius from the middle of a flat cap. With a slack the ends of arcs without joints are led there too,
-// from a quarter of it on. The steps are shorter in limbs that are thin. Returns the hubs of the ends that
-// moved. The graph's map and the tips are of the vertices of `inner`. Cost: O(vertices on leaf arcs), a few
-// queries a tip, and a search along the limb for each that is out of sight.
+// does, as in a bent twig; those that end within `slack` half widths of the limb from it stay, or a quarter
+// of its radius from the middle of a flat cap. With a slack the ends of arcs without joints are led there
+// too, from a quarter of it on. The steps are shorter in limbs that are thin. Returns the hubs of the ends
+// that moved. The graph's map and the tips are of the vertices of `inner`. Cost: O(vertices on leaf arcs), a
+// few queries a tip, and a search along the limb for each that is out of sight.
 std::vector<Index> aim_at_tips(ArcGraph& graph, detail::InnerGraph& inner, const std::vector<LimbTip>& tips,
                                double step, double slack = 0);
 
