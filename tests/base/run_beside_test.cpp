@@ -166,7 +166,7 @@ TEST_CASE("The callback is asked on the calling thread, also while only others g
     std::atomic<bool> elsewhere_begun{false};
     int asked = 0, wrong = 0;
     execution.progress = [&](const char* stage, double share) {
-      if (std::this_thread::get_id() != caller || std::string(stage) != "piece" || share != 0.5) ++wrong;
+      if (std::this_thread::get_id() != caller || std::string(stage) != "far" || share != 0.5) ++wrong;
       return ++asked < 3;
     };
     const auto piece = [&](Index, const Execution& aside) {
