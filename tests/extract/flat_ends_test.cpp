@@ -185,6 +185,43 @@ TEST_CASE("A stand with hooks on its top ends at its foot, however wide that is"
   }
 }
 
+TEST_CASE("A lamp's arc runs from its base through its pole into its shade, whatever the shade's height") {
+  for (const double height : {0.8, 1.2, 1.4, 1.6, 2.0, 2.6}) {
+    const double top = 5.5 + height;
+    const CurveSkeleton skeleton = extract_skeleton(united({{{0, 0, 0}, {0, 0, 0.25}, 0.9},
+                                                            {{0, 0, 0.1}, {0, 0, 6}, 0.12},
+                                                            {{0, 0, 5.5}, {0, 0, top}, 1.1}},
+                                                           0.12))
+                                       .skeleton;
+    CAPTURE(height);
+    double lowest = top, highest = 0;
+    for (const SkeletonNode& node : skeleton.nodes) {
+      lowest = std::min(lowest, node.position.z());
+      highest = std::max(highest, node.position.z());
+    }
+    CHECK(lowest < 0.5);
+    CHECK(highest > 5.7);
+  }
+}
+
+TEST_CASE("A rod with an eye has an arc to the end of what carries it, as short as that may be") {
+  for (const double length : {1.0, 1.3, 1.7}) {
+    std::vector<Pipe> pipes{{{0, 0, 0}, {0, 0, length}, 0.8}, {{0, 0, -4}, {0, 0, 0.3}, 0.2}};
+    for (int i = 0; i < 8; ++i) {
+      const auto at = [](int k) { return Vector3(std::sin(kPi * k / 4), 0, -4.8 + std::cos(kPi * k / 4)); };
+      const Vector3 overlap = 0.07 * (at(i + 1) - at(i));
+      pipes.push_back({at(i) - overlap, at(i + 1) + overlap, 0.25});
+    }
+    const CurveSkeleton skeleton = extract_skeleton(united(pipes, 0.15)).skeleton;
+    CAPTURE(length);
+    CHECK(count_graph(skeleton).cycles == 1);
+    CHECK(count_graph(skeleton).leaves == 1);
+    double highest = -6;
+    for (const SkeletonNode& node : skeleton.nodes) highest = std::max(highest, node.position.z());
+    CHECK(highest > 0.2 * length);
+  }
+}
+
 TEST_CASE("Faces of blocks, thin discs and rounded ends are no flat ends, and caps of rods are") {
   const auto count = [](const DefaultMesh& mesh) {
     const Solid solid(mesh);

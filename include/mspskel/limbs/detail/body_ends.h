@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <unordered_set>
 #include <vector>
 
 #include "mspskel/limbs/detail/limb_search.h"
@@ -36,6 +37,7 @@ class BodyEnds {
       Body& body = body_[surface.component[limb->tip.vertex]];
       ++body.carried;
       body.mouths += mouth * mouth / (4 * kPi);
+      body.handles_of_limbs += handles_of(limb->part);
     }
     for (const FoundLimb& limb : limbs)
       if (limb.tip.kind == TipKind::kLimb) ++body_[surface.component[limb.tip.vertex]].limbs;
@@ -52,6 +54,8 @@ class BodyEnds {
   }
 
   Index limb_count(Index component) const { return body_[component].limbs; }
+  // Of those that the body carries, as the eye of a rod.
+  Index handles_of_limbs(Index component) const { return body_[component].handles_of_limbs; }
 
   // Where the only limb of a body that is a flat plate leaves it, if that is a rod: its arc goes all its
   // length.
@@ -88,9 +92,7 @@ class BodyEnds {
     const std::optional<Vector3> away = away_from_limbs(component);
     if (!away) return ends;
     add_end(component, *away, ends);
-    if (ends.empty() && others == 0 && !loops &&
-        ((body.carried == 1 && is_flat(body.centre, *away)) ||
-         (body.limbs > 1 && is_far_from_limbs(component))))
+    if (ends.empty() && others == 0 && !loops && (body.carried == 1 || is_far_from_limbs(component)))
       ends.push_back(end_at(component, body.centre));
     return ends;
   }
@@ -100,6 +102,7 @@ class BodyEnds {
     Index limbs = 0;
     Index carried = 0;  // limbs that it carries itself, and no other limb does
     double mouths = 0;  // area of discs with the rims of their mouths
+    Index handles_of_limbs = 0;
     double area = 0;
     Vector3 centre = Vector3::Zero();
     Eigen::Matrix3d second = Eigen::Matrix3d::Zero();  // ∫ x xᵀ
@@ -115,6 +118,24 @@ class BodyEnds {
       if (!in_limb_[limb->tip.vertex]) carried_.push_back(limb);
       for (const Index v : limb->part) in_limb_[v] = 1;
     }
+  }
+
+  // A part that is open at one place is a disc with handles: its Euler characteristic is 1 less 2 for each.
+  Index handles_of(const std::vector<Index>& part) const {
+    const std::unordered_set<Index> within(part.begin(), part.end());
+    Index twice_edges = 0, thrice_faces = 0;
+    for (const Index v : part) {
+      const Index first = surface_.vertex_halfedge[v];
+      Index h = first;
+      do {
+        const bool next = within.count(surface_.target(h)) > 0;
+        twice_edges += next;
+        thrice_faces += next && within.count(surface_.apex(h)) > 0;
+        h = surface_.next_outgoing(h);
+      } while (h != first);
+    }
+    const Index euler = static_cast<Index>(part.size()) - twice_edges / 2 + thrice_faces / 3;
+    return std::max<Index>(0, (1 - euler) / 2);
   }
 
   // Whether the surface is no farther from its middle plane than the plate is thick in its middle.
@@ -160,12 +181,6 @@ class BodyEnds {
     if (!(sum.norm() > 0) || std::any_of(directions.begin(), directions.end(), is_beside))
       return std::nullopt;
     return -axis;
-  }
-
-  // Whether the ball in the middle of a body all but touches the surface ahead.
-  bool is_flat(const Vector3& centre, const Vector3& ahead) const {
-    constexpr double kFlat = 1.15;
-    return solid_.first_hit(centre, ahead, kFlat * solid_.distance(centre)).has_value();
   }
 
   // Where several limbs meet in the middle of the body, or it is but the fold between them, their arcs meet

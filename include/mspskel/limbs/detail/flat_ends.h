@@ -23,6 +23,7 @@ struct FlatEnd {
   LimbTip tip;  // in the cap's middle, a little inside
   Vector3 normal = Vector3::Zero();
   std::vector<Index> vertices;  // of the cap with its rim, ascending
+  bool carries = false;         // something stands on its middle
 };
 
 // A cap is flat, the surface turns off sharply all round it, and the wall beyond its rim runs along its
@@ -296,6 +297,7 @@ class FlatEndSearch {
     end.target = cap.centre - kAhead * cap.radius * cap.normal;
     end.measures.depth = end.flat_end = cap.radius;
     end.measures.half_width = 0.25 * cap.radius;  // as that of a body's end: the arc is to end in the middle
+    flat.carries = !solid_.first_hit(end.target, cap.normal, 2 * kAhead * cap.radius);
     const auto away = [&](Index v) { return (surface_.position[v] - cap.centre).norm(); };
     end.vertex = *std::min_element(flat.vertices.begin(), flat.vertices.end(),
                                    [&](Index v, Index w) { return away(v) < away(w); });

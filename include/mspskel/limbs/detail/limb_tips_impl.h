@@ -178,7 +178,7 @@ inline void add_body_ends(const SurfaceSnapshot& surface, const std::vector<bool
   std::vector<bool> has_ears(shells.size(), false);
   for (Index c = 0; c < surface.component_count; ++c) {
     has_ears[c] = bodies.limb_count(c) > 0;
-    const bool loops = twice_euler[c] != 4;
+    const bool loops = (4 - twice_euler[c]) / 4 > bodies.handles_of_limbs(c);
     if ((shells[c] || !has_ears[c]) && !loops) {
       if (std::optional<LimbTip> foot = bodies.foot(c)) tips.push_back(std::move(*foot));
     } else if (!shells[c]) {
@@ -211,7 +211,7 @@ inline bool is_long_behind(const FlatEnd& end, const BoundingVolumeHierarchy& so
 // at any place near the rim. A limb or body of which one is the end is led to its middle.
 inline void add_flat_ends(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
                           const std::vector<FlatEnd>& ends, std::vector<LimbTip>& tips) {
-  constexpr double kNear = 1.5;  // radii
+  constexpr double kNear = 1.5, kAtEnd = 0.5;  // radii; a body may end in its middle
   std::vector<std::vector<const FlatEnd*>> of_component(static_cast<std::size_t>(surface.component_count));
   for (const FlatEnd& end : ends) of_component[surface.component[end.tip.vertex]].push_back(&end);
   const std::vector<Index> twice_euler = twice_euler_characteristics(surface);
@@ -228,13 +228,14 @@ inline void add_flat_ends(const SurfaceSnapshot& surface, const BoundingVolumeHi
       };
       const auto stands_for_it = [&](const LimbTip& tip) {
         const double distance = (tip.target - end->tip.target).norm(), radius = end->tip.flat_end;
+        if (tip.kind == TipKind::kBodyEnd) return distance <= kAtEnd * radius;
         return tip.kind != TipKind::kWayEnd &&
                (ends_there(tip) || distance <= radius ||
                 (distance <= kNear * radius &&
                  std::find(tip.cap.begin(), tip.cap.end(), end->tip.vertex) != tip.cap.end()));
       };
       for (LimbTip& tip : tips)
-        if (tip.kind == TipKind::kBodyEnd ? stands_for_it(tip)
+        if (tip.kind == TipKind::kBodyEnd ? !end->carries && stands_for_it(tip)
                                           : tip.kind != TipKind::kWayEnd && ends_there(tip)) {
           tip.flat_end = end->tip.flat_end;
           tip.cap = end->tip.cap;

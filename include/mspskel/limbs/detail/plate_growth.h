@@ -86,8 +86,7 @@ class PlateGrowth {
     slab.across = normal_[side];
     slab.thickness = chord(side);
     slab.middle = surface_.face_centroid(side) - 0.5 * slab.thickness * slab.across;
-    // In a tube or the end of one nothing needs to grow.
-    if (!(slab.thickness > 0) || slab.thickness > most || !is_wide_at(slab.middle, slab)) return std::nullopt;
+    if (!(slab.thickness > 0) || slab.thickness > most) return std::nullopt;
     std::vector<Index> faces = faces_of(slab, side);
     if (faces.size() < kLeastFaces) return std::nullopt;
     for (int i = 1; i < kTimes; ++i) {
@@ -135,7 +134,8 @@ class PlateGrowth {
     return here <= most && here * kAlike >= thickness;
   }
 
-  // Whether it is so on both sides of the way inward from a face near the rim.
+  // Whether it is so on both sides of the way inward from a face near the rim: where it is not, as in the end
+  // of a tube, nothing needs to grow.
   bool is_wide_inward(Index side, const Vector3& inward) {
     const Vector3& across = normal_[side];
     const double thickness = chord(side);
@@ -147,34 +147,31 @@ class PlateGrowth {
     return is_as_thick(x + beside, across, thickness) && is_as_thick(x - beside, across, thickness);
   }
 
-  // Whether a slab is wider than thick about a point of its middle plane: whichever way one goes along it, it
-  // goes on there or the opposite way. At most sixteen rays; in a tube two to four.
-  bool is_wide_at(const Vector3& x, const Slab& slab) const {
-    constexpr double kBeside = 0.9;  // thicknesses; in a square bar four fifths are nearer to the middle
-    constexpr int kWays = 4;
-    const Vector3 one = slab.across.unitOrthogonal(), other = slab.across.cross(one);
-    for (int way = 0; way < kWays; ++way) {
-      const double angle = kPi * way / kWays;
-      const Vector3 beside = kBeside * slab.thickness * (std::cos(angle) * one + std::sin(angle) * other);
-      if (!is_as_thick(x + beside, slab.across, slab.thickness) &&
-          !is_as_thick(x - beside, slab.across, slab.thickness))
-        return false;
-    }
-    return true;
-  }
-
-  // Whether it is so nearly everywhere, and not only as a whole, as tubes that fork in one plane are. Asks
-  // for some of the faces.
+  // Whether a slab is wider than thick nearly everywhere, and not only as a whole, as tubes that fork in one
+  // plane are: whichever way one goes from its sides along it, it goes on there or the opposite way. At most
+  // sixteen rays for each of some of the faces.
   bool is_wide(const std::vector<Index>& faces, const Slab& slab) const {
     constexpr std::size_t kSample = 64;
-    constexpr double kShare = 0.5;  // of the area of the sides
+    constexpr double kBeside = 0.9;  // thicknesses; in a square bar four fifths are nearer to the middle
+    constexpr double kShare = 0.5;   // of the area of the sides
+    constexpr int kWays = 4;
+    const Vector3 one = slab.across.unitOrthogonal(), other = slab.across.cross(one);
+    const auto goes_on = [&](const Vector3& x, int way) {
+      const double angle = kPi * way / kWays;
+      const Vector3 beside = kBeside * slab.thickness * (std::cos(angle) * one + std::sin(angle) * other);
+      return is_as_thick(x + beside, slab.across, slab.thickness) ||
+             is_as_thick(x - beside, slab.across, slab.thickness);
+    };
     double sides = 0, wide = 0;
     for (std::size_t i = 0; i < faces.size(); i += 1 + faces.size() / kSample) {
       if (!is_side(faces[i], slab.across)) continue;
       const double area = surface_.face_area(faces[i]);
       const Vector3 x = surface_.face_centroid(faces[i]);
+      const Vector3 middle = x - slab.across.dot(x - slab.middle) * slab.across;
       sides += area;
-      if (is_wide_at(x - slab.across.dot(x - slab.middle) * slab.across, slab)) wide += area;
+      int ways = 0;
+      while (ways < kWays && goes_on(middle, ways)) ++ways;
+      if (ways == kWays) wide += area;
     }
     return wide >= kShare * sides;
   }
