@@ -92,7 +92,10 @@ class BodyEnds {
     const std::optional<Vector3> away = away_from_limbs(component);
     if (!away) return ends;
     add_end(component, *away, ends);
-    if (ends.empty() && others == 0 && !loops && (body.carried == 1 || is_far_from_limbs(component)))
+    // Nothing else tells where the arc of a lone limb is to end.
+    const bool lone = body.carried == 1 && others == 0 && !loops;
+    if (ends.empty() && lone) add_end(component, *away, ends, kFlat);
+    if (ends.empty() && others == 0 && !loops && (lone || is_far_from_limbs(component)))
       ends.push_back(end_at(component, body.centre));
     return ends;
   }
@@ -150,6 +153,7 @@ class BodyEnds {
   }
 
   static constexpr double kLonger = 1.4;  // length over width
+  static constexpr double kFlat = 1.15;   // the same of a body that ends in its middle
 
   // Of a squat body, where one principal axis differs from the other two, and the way along it is longer than
   // the ball in the middle is wide: in a plate it is not.
