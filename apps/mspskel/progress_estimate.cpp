@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "mspskel/pipeline/component_order.h"
@@ -12,7 +11,6 @@ namespace {
 
 // A component is begun by what comes before its skeletal points, and ended by what comes after.
 constexpr const char* kMiddle = "skeletal points";
-constexpr double kEndless = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
@@ -48,7 +46,7 @@ void ProgressEstimate::expect_stages(const ExtractOptions& options, bool fine) {
 void ProgressEstimate::expect_components(const std::vector<std::size_t>& faces,
                                          const ExtractOptions& options) {
   if (faces.size() < 2) return;
-  const double working_faces = options.coarsen ? 2.0 * options.coarsening.vertices : kEndless;
+  const double working_faces = most_working_faces(options.coarsen, options.coarsening.vertices);
   const int threads = thread_count(options.execution);
   const ComponentOrder order = order_components(faces, working_faces, threads);
   pieces_.clear();

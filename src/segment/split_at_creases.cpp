@@ -233,8 +233,9 @@ void split_at_creases(const SurfaceSnapshot& surface, const std::vector<double>&
   doubtful.cost *= options.doubt;
   doubtful.most = 0;
   Patches grown{merge_patches(surface, costs, single_faces(part_of_face), doubtful), {}};
-  grown.part.resize(1 + *std::max_element(grown.of_face.begin(), grown.of_face.end()));
-  for (std::size_t f = 0; f < part_of_face.size(); ++f) grown.part[grown.of_face[f]] = part_of_face[f];
+  // They are numbered by their least faces.
+  for (std::size_t f = 0; f < part_of_face.size(); ++f)
+    if (grown.of_face[f] == static_cast<Index>(grown.part.size())) grown.part.push_back(part_of_face[f]);
   smooth_borders(surface, costs, grown.of_face, options.border_width);
   connect_parts(surface, grown.of_face);
   part_of_face = merge_patches(surface, costs, grown, options);

@@ -21,11 +21,9 @@ inline std::vector<double> component_areas(const SurfaceSnapshot& surface) {
 // do, and what bounds it far away says nothing of the solid here. O(faces).
 inline std::vector<double> areas_per_handle(const SurfaceSnapshot& surface) {
   std::vector<double> area = component_areas(surface);
-  const std::vector<Index> twice_euler = twice_euler_characteristics(surface);
-  for (std::size_t c = 0; c < area.size(); ++c) {
-    const Index handles = (4 - twice_euler[c]) / 4;
-    area[c] = handles > 0 ? area[c] / handles : std::numeric_limits<double>::infinity();
-  }
+  const std::vector<Index> handles = handles_of_components(surface);
+  for (std::size_t c = 0; c < area.size(); ++c)
+    area[c] = handles[c] > 0 ? area[c] / handles[c] : std::numeric_limits<double>::infinity();
   return area;
 }
 

@@ -82,6 +82,9 @@ void for_each_neighbour(const SurfaceSnapshot& surface, Index v, Visit&& visit) 
 // sphere, 4 less for every handle. O(faces).
 std::vector<Index> twice_euler_characteristics(const SurfaceSnapshot& surface);
 
+// The genus of each component. O(faces).
+std::vector<Index> handles_of_components(const SurfaceSnapshot& surface);
+
 // Copies any OpenMesh triangle mesh. Cost: O(faces).
 // Throws MeshError if the mesh is empty, not closed, has a vertex where two fans meet, or a coordinate that
 // is not finite.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 #include <vector>
 
@@ -17,6 +18,11 @@ struct ComponentOrder {
   std::vector<Index> components;  // the largest first
   std::size_t alone = 0;          // so many of them one after the other, then the others side by side
 };
+
+// Faces of the surface that the stages walk on, at most.
+inline double most_working_faces(bool coarsen, Index vertices) {
+  return coarsen ? 2.0 * vertices : std::numeric_limits<double>::infinity();
+}
 
 // What a component takes, roughly, in faces of a surface that the stages walk on, which has at most
 // `working_faces`. A finer one is coarsened to it, at so much less a face.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Sparse>
+#include <numeric>
 
 #include "mspskel/base/linkage.h"
 #include "mspskel/base/sparse_solvers.h"
@@ -56,9 +57,8 @@ MSPSKEL_INLINE void apply_spatial_coherence(const SurfaceSnapshot& surface, cons
   // More rows than that take longer to eliminate than to approach, and so do those of many handles, which
   // leave no small cuts to divide the surface at.
   constexpr Index kFew = 20000, kFewHandles = 128;
-  const Index faces = surface.face_count(), edges = surface.halfedge_count() / 2;
-  const Index handles = surface.component_count - (n - edges + faces) / 2;
-  const bool large = n > kFew || handles > kFewHandles;
+  const std::vector<Index> handles = handles_of_components(surface);
+  const bool large = n > kFew || std::accumulate(handles.begin(), handles.end(), 0) > kFewHandles;
   Eigen::MatrixX3d guess(n, 3);
   for (Index v = 0; v < n; ++v) guess.row(v) = mesh.position[v].transpose();
   const auto solution = large ? solve_large(matrix, right, guess) : solve_by_elimination(matrix, right);

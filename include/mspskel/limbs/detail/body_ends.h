@@ -31,14 +31,13 @@ class BodyEnds {
         area_with_limbs_(component_areas(surface)),
         in_limb_(surface.position.size(), 0) {
     set_carried(limbs);
-    for (const FoundLimb* const limb : carried_) {
-      if (limb->tip.kind != TipKind::kLimb) continue;
-      const double mouth = 2 * kPi * limb->tip.measures.depth / limb->tip.measures.depth_over_mouth;
-      Body& body = body_[surface.component[limb->tip.vertex]];
-      ++body.carried;
-      body.mouths += mouth * mouth / (4 * kPi);
-      body.handles_of_limbs += handles_of(limb->part);
-    }
+    for (Body& body : body_)
+      for (const FoundLimb* const limb : body.carried) {
+        if (!is_limb_tip(limb)) continue;
+        const double mouth = 2 * kPi * limb->tip.measures.depth / limb->tip.measures.depth_over_mouth;
+        body.mouths += mouth * mouth / (4 * kPi);
+        body.handles_of_limbs += handles_of(limb->part);
+      }
     for (const FoundLimb& limb : limbs)
       if (limb.tip.kind == TipKind::kLimb) ++body_[surface.component[limb.tip.vertex]].limbs;
     for (Index v = 0; v < surface.vertex_count(); ++v) {
@@ -61,17 +60,13 @@ class BodyEnds {
   // length.
   std::optional<LimbTip> foot(Index component) const {
     constexpr double kLeastSlenderness = 2, kSolid = 0.5;
-    if (!is_plate(body_[component])) return std::nullopt;
-    const FoundLimb* only = nullptr;
-    for (const FoundLimb* const limb : carried_) {
-      if (surface_.component[limb->tip.vertex] != component) continue;
-      if (only != nullptr) return std::nullopt;
-      only = limb;
-    }
-    if (only == nullptr || !only->tip.plate.empty() || !solid_.inside(only->root)) return std::nullopt;
-    const LimbMeasures& m = only->tip.measures;
+    const Body& body = body_[component];
+    if (body.carried.size() != 1 || !is_plate(body)) return std::nullopt;
+    const FoundLimb& only = *body.carried.front();
+    if (!only.tip.plate.empty() || !solid_.inside(only.root)) return std::nullopt;
+    const LimbMeasures& m = only.tip.measures;
     if (m.slenderness < kLeastSlenderness || m.half_chord < kSolid * m.half_width) return std::nullopt;
-    return end_at(component, only->root);
+    return end_at(component, only.root);
   }
 
   // The ends of one component's body that no limb stands for. `loops`: whether it has handles.
@@ -86,16 +81,13 @@ class BodyEnds {
       for (const double sign : {-1.0, 1.0}) add_end(component, sign * solver.eigenvectors().col(2), ends);
     if (body.limbs == 0 && ends.empty()) add_ends_of_axis(component, solver, ends);
     if (!ends.empty()) return ends;
-    Index others = 0;
-    for (const FoundLimb* const limb : carried_)
-      if (surface_.component[limb->tip.vertex] == component && limb->tip.kind != TipKind::kLimb) ++others;
-    const std::optional<Vector3> away = away_from_limbs(component);
+    const std::optional<Vector3> away = away_from_limbs(body);
     if (!away) return ends;
-    add_end(component, *away, ends);
+    const bool limbs_alone = !loops && std::all_of(body.carried.begin(), body.carried.end(), is_limb_tip);
     // Nothing else tells where the arc of a lone limb is to end.
-    const bool lone = body.carried == 1 && others == 0 && !loops;
-    if (ends.empty() && lone) add_end(component, *away, ends, kFlat);
-    if (ends.empty() && others == 0 && !loops && (lone || is_far_from_limbs(component)))
+    const bool lone = limbs_alone && body.carried.size() == 1;
+    add_end(component, *away, ends, lone ? kFlat : kLonger);
+    if (ends.empty() && (lone || (limbs_alone && is_far_from_limbs(component))))
       ends.push_back(end_at(component, body.centre));
     return ends;
   }
@@ -103,13 +95,15 @@ class BodyEnds {
  private:
   struct Body {
     Index limbs = 0;
-    Index carried = 0;  // limbs that it carries itself, and no other limb does
-    double mouths = 0;  // area of discs with the rims of their mouths
+    std::vector<const FoundLimb*> carried;  // limbs and ears that are no part of another one
+    double mouths = 0;                      // area of discs with the rims of the mouths of those limbs
     Index handles_of_limbs = 0;
     double area = 0;
     Vector3 centre = Vector3::Zero();
     Eigen::Matrix3d second = Eigen::Matrix3d::Zero();  // ∫ x xᵀ
   };
+
+  static bool is_limb_tip(const FoundLimb* limb) { return limb->tip.kind == TipKind::kLimb; }
 
   // A limb is a part of another one, as an arm of the pole that it leaves, if that one's surface has its tip.
   void set_carried(const std::vector<FoundLimb>& limbs) {
@@ -118,7 +112,8 @@ class BodyEnds {
     std::stable_sort(by_size.begin(), by_size.end(),
                      [](const FoundLimb* a, const FoundLimb* b) { return a->part.size() > b->part.size(); });
     for (const FoundLimb* const limb : by_size) {
-      if (!in_limb_[limb->tip.vertex]) carried_.push_back(limb);
+      const Index top = limb->tip.vertex;
+      if (!in_limb_[top]) body_[surface_.component[top]].carried.push_back(limb);
       for (const Index v : limb->part) in_limb_[v] = 1;
     }
   }
@@ -171,13 +166,13 @@ class BodyEnds {
 
   // The opposite of where all limbs leave, seen from the middle of the body; nothing if they leave to several
   // sides, or if there are none.
-  std::optional<Vector3> away_from_limbs(Index component) const {
+  static std::optional<Vector3> away_from_limbs(const Body& body) {
     constexpr double kOneSide = 0.5;  // the cosine of the half angle of the cone that they are in
     std::vector<Vector3> directions;
     Vector3 sum = Vector3::Zero();
-    for (const FoundLimb* const limb : carried_) {
-      if (surface_.component[limb->tip.vertex] != component || limb->tip.kind != TipKind::kLimb) continue;
-      directions.push_back((limb->root - body_[component].centre).normalized());
+    for (const FoundLimb* const limb : body.carried) {
+      if (!is_limb_tip(limb)) continue;
+      directions.push_back((limb->root - body.centre).normalized());
       sum += directions.back();
     }
     const Vector3 axis = sum.normalized();
@@ -195,9 +190,8 @@ class BodyEnds {
     if (body.area < kLeastShare * area_with_limbs_[component]) return false;
     const Vector3& centre = body.centre;
     const double least = kLonger * solid_.distance(centre);
-    return std::none_of(carried_.begin(), carried_.end(), [&](const FoundLimb* limb) {
-      return surface_.component[limb->tip.vertex] == component && (limb->root - centre).norm() < least;
-    });
+    return std::none_of(body.carried.begin(), body.carried.end(),
+                        [&](const FoundLimb* limb) { return (limb->root - centre).norm() < least; });
   }
 
   // The end must be at least so many radii of the ball in the middle away.
@@ -209,10 +203,8 @@ class BodyEnds {
     const auto hit = solid_.first_hit(centre, direction);
     const double radius = solid_.distance(centre);
     if (!hit || hit->distance < least * radius) return;
-    for (const FoundLimb* const limb : carried_)
-      if (surface_.component[limb->tip.vertex] == component &&
-          (limb->root - centre).dot(direction) > kNear * hit->distance)
-        return;
+    for (const FoundLimb* const limb : body_[component].carried)
+      if ((limb->root - centre).dot(direction) > kNear * hit->distance) return;
     const Vector3 end = centre + hit->distance * direction;
     LimbTip tip = end_at(component, end);
     if (in_limb_[tip.vertex]) return;
@@ -252,10 +244,9 @@ class BodyEnds {
 
   const SurfaceSnapshot& surface_;
   const BoundingVolumeHierarchy& solid_;
-  std::vector<const FoundLimb*> carried_;  // limbs that are no part of another one
-  std::vector<Body> body_;                 // per component
-  std::vector<double> area_with_limbs_;    // per component
-  std::vector<std::uint8_t> in_limb_;      // per vertex
+  std::vector<Body> body_;               // per component
+  std::vector<double> area_with_limbs_;  // per component
+  std::vector<std::uint8_t> in_limb_;    // per vertex
 };
 
 }  // namespace detail

@@ -46,17 +46,25 @@ class PlaneHull {
   }
 
   // O(corners).
-  double area() const {
-    double twice = 0;
-    for (std::size_t i = 0; i < corner_.size(); ++i) {
-      const Vector2 &a = corner_[i], &b = corner_[(i + 1) % corner_.size()];
-      twice += a.x() * b.y() - a.y() * b.x();
-    }
-    return 0.5 * twice;
+  double area() const { return area_in(corner_); }
+  // Of what a loop of points goes round in the plane; positive where it is anticlockwise. O(points).
+  double area_in(const std::vector<Vector3>& loop) const {
+    std::vector<Vector2> flat;
+    for (const Vector3& x : loop) flat.push_back(in_plane(x));
+    return area_in(flat);
   }
 
  private:
   using Vector2 = Eigen::Vector2d;
+
+  static double area_in(const std::vector<Vector2>& loop) {
+    double twice = 0;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const Vector2 a = loop[i] - loop[0], b = loop[(i + 1) % loop.size()] - loop[0];
+      twice += a.x() * b.y() - a.y() * b.x();
+    }
+    return 0.5 * twice;
+  }
 
   Vector2 in_plane(const Vector3& x) const { return {side_.dot(x), up_.dot(x)}; }
 

@@ -161,15 +161,8 @@ class FlatEndSearch {
     cap.fill = cap.area / (4 * kPi * width * length);
     std::vector<Vector3> rim;
     for (const Index h : cap.rim.halfedges) rim.push_back(surface_.position[surface_.origin[h]]);
-    cap.solidity = area_within(rim, cap.normal) / PlaneHull(rim, cap.normal).area();
-  }
-
-  // In a loop of points, as seen along a direction.
-  static double area_within(const std::vector<Vector3>& loop, const Vector3& across) {
-    double twice = 0;
-    for (std::size_t i = 0; i < loop.size(); ++i)
-      twice += (loop[i] - loop[0]).cross(loop[(i + 1) % loop.size()] - loop[0]).dot(across);
-    return 0.5 * twice;
+    const PlaneHull hull(rim, cap.normal);
+    cap.solidity = hull.area_in(rim) / hull.area();
   }
 
   // Whether it is about as wide as long, and no L or T.
@@ -250,20 +243,18 @@ class FlatEndSearch {
     const auto square_of_height = [&](const Vector3& x) {
       return std::pow((x - cap.centre).dot(cap.normal), 2);
     };
-    double area = 0, of_faces = 0, length = 0, of_rim = 0;
+    double area = 0, of_faces = 0, of_rim = 0;
     for (const Index f : cap.faces) {
       area += surface_.face_area(f);
       of_faces += surface_.face_area(f) * square_of_height(surface_.face_centroid(f));
     }
     for (const Index h : cap.rim.halfedges) {
-      const double own = surface_.edge_length(h);
       const Vector3 middle =
           0.5 * (surface_.position[surface_.origin[h]] + surface_.position[surface_.target(h)]);
-      length += own;
-      of_rim += own * square_of_height(middle);
+      of_rim += surface_.edge_length(h) * square_of_height(middle);
     }
     const double most = std::pow(kUneven * cap.radius, 2);
-    return of_faces <= most * area && of_rim <= most * length;
+    return of_faces <= most * area && of_rim <= most * cap.rim.length;
   }
 
   // Whether a tube ends in the cap: it is as deep as wide by half there, and the wall within half a radius of

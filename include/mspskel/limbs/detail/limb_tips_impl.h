@@ -56,13 +56,13 @@ inline std::vector<double> surface_distances(const SurfaceSnapshot& surface, con
 // A component without limbs or handles keeps its longest way: the two ends of it count as tips, without a
 // depth. Where it has a handle, that is its skeleton.
 inline void add_longest_ways(const SurfaceSnapshot& surface, const SurfaceWays& ways,
-                             const std::vector<double>& distance, std::vector<LimbTip>& tips) {
+                             const std::vector<double>& distance, const std::vector<Index>& handles,
+                             std::vector<LimbTip>& tips) {
   constexpr double kCap = 0.85;  // of the way
   std::vector<Index> from = greatest_of_components(surface, [&](Index v) { return distance[v]; });
   for (const LimbTip& tip : tips) from[surface.component[tip.vertex]] = kNone;
-  const std::vector<Index> twice_euler = twice_euler_characteristics(surface);
   for (std::size_t c = 0; c < from.size(); ++c)
-    if (twice_euler[c] != 4) from[c] = kNone;
+    if (handles[c] > 0) from[c] = kNone;
   if (std::all_of(from.begin(), from.end(), [](Index v) { return v == kNone; })) return;
   const std::vector<double> way = surface_distances(surface, ways, from);
   const std::vector<Index> to = greatest_of_components(surface, [&](Index v) { return way[v]; });
@@ -173,12 +173,12 @@ namespace detail {
 // Adds the ends of the bodies that have limbs or handles. Ears of components with neither limbs nor such ends
 // go: on a plain body they are corners.
 inline void add_body_ends(const SurfaceSnapshot& surface, const std::vector<bool>& shells,
-                          const BodyEnds& bodies, std::vector<LimbTip>& tips) {
-  const std::vector<Index> twice_euler = twice_euler_characteristics(surface);
+                          const BodyEnds& bodies, const std::vector<Index>& handles,
+                          std::vector<LimbTip>& tips) {
   std::vector<bool> has_ears(shells.size(), false);
   for (Index c = 0; c < surface.component_count; ++c) {
     has_ears[c] = bodies.limb_count(c) > 0;
-    const bool loops = (4 - twice_euler[c]) / 4 > bodies.handles_of_limbs(c);
+    const bool loops = handles[c] > bodies.handles_of_limbs(c);
     if ((shells[c] || !has_ears[c]) && !loops) {
       if (std::optional<LimbTip> foot = bodies.foot(c)) tips.push_back(std::move(*foot));
     } else if (!shells[c]) {
@@ -206,45 +206,59 @@ inline bool is_long_behind(const FlatEnd& end, const BoundingVolumeHierarchy& so
   return !solid.first_hit(end.tip.target, -end.normal, 2 * kLonger * end.tip.flat_end);
 }
 
+// Radii of a flat end within which others are the same end.
+inline constexpr double kNearFlatEnd = 1.5;
+
+// Whether a tip lies in the cap of a flat end.
+inline bool lies_in(const LimbTip& tip, const FlatEnd& end) {
+  return std::binary_search(end.vertices.begin(), end.vertices.end(), tip.vertex);
+}
+
+// Whether a tip that is no way's is that of the tube that a flat end cuts off. A body may end in its middle,
+// which is near to many caps.
+inline bool stands_for(const LimbTip& tip, const FlatEnd& end) {
+  constexpr double kAtEnd = 0.5;
+  const double distance = (tip.target - end.tip.target).norm(), radius = end.tip.flat_end;
+  if (tip.kind == TipKind::kWayEnd) return false;
+  if (tip.kind == TipKind::kBodyEnd) return distance <= kAtEnd * radius;
+  return lies_in(tip, end) || distance <= radius ||
+         (distance <= kNearFlatEnd * radius &&
+          std::find(tip.cap.begin(), tip.cap.end(), end.tip.vertex) != tip.cap.end());
+}
+
+// Whether a tip's arc is to end in the middle of a flat end, which nothing stands on where a body ends.
+inline bool ends_in(const LimbTip& tip, const FlatEnd& end) {
+  if (tip.kind == TipKind::kBodyEnd) return !end.carries && stands_for(tip, end);
+  return tip.kind != TipKind::kWayEnd && lies_in(tip, end);
+}
+
 // Adds the flat ends that no tip stands for. A body without handles or other tips than the ends of its
 // longest way has an axis if its flat ends are opposite; else they take the place of ways that end in them,
 // at any place near the rim. A limb or body of which one is the end is led to its middle.
 inline void add_flat_ends(const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
-                          const std::vector<FlatEnd>& ends, std::vector<LimbTip>& tips) {
-  constexpr double kNear = 1.5, kAtEnd = 0.5;  // radii; a body may end in its middle
+                          const std::vector<FlatEnd>& ends, const std::vector<Index>& handles,
+                          std::vector<LimbTip>& tips) {
   std::vector<std::vector<const FlatEnd*>> of_component(static_cast<std::size_t>(surface.component_count));
   for (const FlatEnd& end : ends) of_component[surface.component[end.tip.vertex]].push_back(&end);
-  const std::vector<Index> twice_euler = twice_euler_characteristics(surface);
   std::vector<bool> has_tip(of_component.size(), false);
   for (const LimbTip& tip : tips)
     if (tip.kind != TipKind::kWayEnd) has_tip[surface.component[tip.vertex]] = true;
   for (std::size_t c = 0; c < of_component.size(); ++c) {
     const bool opposite = !has_tip[c] && are_opposite(of_component[c]);
-    if (opposite && twice_euler[c] == 4) continue;
+    if (opposite && handles[c] == 0) continue;
     for (const FlatEnd* const end : of_component[c]) {
       if (opposite && !is_long_behind(*end, solid)) continue;
-      const auto ends_there = [&](const LimbTip& tip) {
-        return std::binary_search(end->vertices.begin(), end->vertices.end(), tip.vertex);
-      };
-      const auto stands_for_it = [&](const LimbTip& tip) {
-        const double distance = (tip.target - end->tip.target).norm(), radius = end->tip.flat_end;
-        if (tip.kind == TipKind::kBodyEnd) return distance <= kAtEnd * radius;
-        return tip.kind != TipKind::kWayEnd &&
-               (ends_there(tip) || distance <= radius ||
-                (distance <= kNear * radius &&
-                 std::find(tip.cap.begin(), tip.cap.end(), end->tip.vertex) != tip.cap.end()));
-      };
       for (LimbTip& tip : tips)
-        if (tip.kind == TipKind::kBodyEnd ? !end->carries && stands_for_it(tip)
-                                          : tip.kind != TipKind::kWayEnd && ends_there(tip)) {
+        if (ends_in(tip, *end)) {
           tip.flat_end = end->tip.flat_end;
           tip.cap = end->tip.cap;
           tip.target = end->tip.target;
         }
-      if (std::any_of(tips.begin(), tips.end(), stands_for_it)) continue;
+      if (std::any_of(tips.begin(), tips.end(), [&](const LimbTip& tip) { return stands_for(tip, *end); }))
+        continue;
       const auto way_ends_near = [&](const LimbTip& tip) {
         return tip.kind == TipKind::kWayEnd &&
-               (surface.position[tip.vertex] - end->tip.target).norm() <= kNear * end->tip.flat_end;
+               (surface.position[tip.vertex] - end->tip.target).norm() <= kNearFlatEnd * end->tip.flat_end;
       };
       tips.erase(std::remove_if(tips.begin(), tips.end(), way_ends_near), tips.end());
       tips.push_back(end->tip);
@@ -303,10 +317,11 @@ MSPSKEL_INLINE std::vector<LimbTip> find_limb_tips(const SurfaceSnapshot& surfac
   }
   const std::vector<bool> shells = find_shells(surface, solid, slices, execution.progress);
   drop_tips_in_walls(surface, solid, shells, tips);
-  detail::add_body_ends(surface, shells, detail::BodyEnds(surface, solid, limbs), tips);
-  detail::add_longest_ways(surface, ways, distance, tips);
+  const std::vector<Index> handles = handles_of_components(surface);
+  detail::add_body_ends(surface, shells, detail::BodyEnds(surface, solid, limbs), handles, tips);
+  detail::add_longest_ways(surface, ways, distance, handles, tips);
   detail::add_flat_ends(surface, solid, detail::FlatEndSearch(surface, solid, execution.progress).run(),
-                        tips);
+                        handles, tips);
   for (LimbTip& tip : tips) tip.position = surface.position[tip.vertex];
   return tips;
 }

@@ -128,4 +128,10 @@ MSPSKEL_INLINE std::vector<Index> twice_euler_characteristics(const SurfaceSnaps
   return result;
 }
 
+MSPSKEL_INLINE std::vector<Index> handles_of_components(const SurfaceSnapshot& surface) {
+  std::vector<Index> handles = twice_euler_characteristics(surface);
+  for (Index& count : handles) count = (4 - count) / 4;
+  return handles;
+}
+
 }  // namespace mspskel

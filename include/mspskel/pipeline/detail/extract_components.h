@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -70,10 +69,9 @@ class ComponentwiseExtraction {
     vertex_.assign(part_.size(), {});
     std::vector<std::size_t> faces;
     for (const std::vector<Index>& own : own_) faces.push_back(own.size());
-    const ComponentOrder order = order_components(
-        faces,
-        options_.coarsen ? 2.0 * options_.coarsening.vertices : std::numeric_limits<double>::infinity(),
-        thread_count(options_.execution));
+    const ComponentOrder order =
+        order_components(faces, most_working_faces(options_.coarsen, options_.coarsening.vertices),
+                         thread_count(options_.execution));
     const auto beside = order.components.begin() + static_cast<std::ptrdiff_t>(order.alone);
     std::for_each(order.components.begin(), beside, [&](Index c) { extract_one(c, options_of(c)); });
     const auto count = static_cast<Index>(order.components.end() - beside);

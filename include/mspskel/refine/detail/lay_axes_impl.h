@@ -48,14 +48,14 @@ MSPSKEL_INLINE Index lay_axes(ArcGraph& graph, const SurfaceSnapshot& surface,
                               const BoundingVolumeHierarchy& solid, const std::vector<LimbTip>& tips) {
   const std::vector<bool> limbed = components_with_limbs(surface, tips);
   if (std::find(limbed.begin(), limbed.end(), false) == limbed.end()) return 0;
-  const std::vector<Index> twice_euler = twice_euler_characteristics(surface);
+  const std::vector<Index> handles = handles_of_components(surface);
   const std::vector<detail::SolidMoments> moments = detail::solid_moments(surface);
   const std::vector<Index> component = detail::components_of_pieces(graph, surface);
   const std::vector<double> extent = component_extents(surface);
   std::vector<std::optional<std::vector<Vector3>>> points(limbed.size());
   std::vector<bool> untold(limbed.size(), false);  // whose principal axes do not tell how they lie
   for (std::size_t c = 0; c < limbed.size(); ++c) {
-    if (limbed[c] || twice_euler[c] != 4 || !moments[c].has_volume()) continue;
+    if (limbed[c] || handles[c] > 0 || !moments[c].has_volume()) continue;
     if (moments[c].axis_stands_apart())
       points[c] = detail::axis_points(moments[c], moments[c].axis(), 1e-6 * extent[c], solid);
     untold[c] = !points[c] || detail::length_of(*points[c]) < kLeastPieceLength * extent[c];

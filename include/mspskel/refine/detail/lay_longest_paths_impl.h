@@ -31,13 +31,13 @@ class LongestPaths {
   Index run() {
     const std::vector<Index> component = components_of_pieces(graph_, surface_);
     const std::vector<double> extent = component_extents(surface_);
-    const std::vector<Index> twice_euler = twice_euler_characteristics(surface_);
+    const std::vector<Index> handles = handles_of_components(surface_);
     std::vector<double> length(extent.size(), 0.0);
     for (const Arc& arc : graph_.arcs)
       if (arc.alive && component[arc.hub[0]] != kNone) length[component[arc.hub[0]]] += arc_length(arc);
     Index laid = 0;
     for (Index c = 0; c < surface_.component_count; ++c) {
-      if (twice_euler[c] != 4 || length[c] >= kLeastPieceLength * extent[c] || is_vessel(c)) continue;
+      if (handles[c] > 0 || length[c] >= kLeastPieceLength * extent[c] || is_vessel(c)) continue;
       auto path = longest_path(c);
       if (!path || !(length_of(*path) > length[c])) continue;
       replace_by_arc(graph_, surface_, component, c, std::move(*path));
