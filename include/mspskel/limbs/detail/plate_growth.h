@@ -1,4 +1,4 @@
-// A plate grown from one of its faces, and how far it stands out of what it is fixed to.
+// A plate grown from one of its faces.
 #pragma once
 
 #include <algorithm>
@@ -10,32 +10,11 @@
 #include <vector>
 
 #include "mspskel/base/watch.h"
-#include "mspskel/limbs/detail/convex_hull.h"
-#include "mspskel/limbs/detail/growing_parts.h"
-#include "mspskel/limbs/detail/limb_search.h"
+#include "mspskel/limbs/detail/plate_measurement.h"
 #include "mspskel/solid/detail/inward_chord.h"
 
 namespace mspskel {
 namespace detail {
-
-// A part with parallel sides, thinner than wide, that reaches beyond its root to one side.
-struct Plate {
-  FoundLimb limb;            // as deep as it stands high on its root; its part is ascending
-  bool stands_out = false;   // else it is too low for its width
-  bool from_crease = false;  // else from its own end
-  bool is_bow = false;       // fixed at two places or more, as a handle or a frame
-  Vector3 across = Vector3::Zero(), up = Vector3::Zero();  // unit
-  double thickness = 0;
-  std::array<double, 2> width{};  // from where to where it extends beside the middle of its root
-
-  // Whether a point lies in the outer half of it, or where that would be if it were a rectangle.
-  bool holds_in_outer_half(const Vector3& x) const {
-    const Vector3 from_root = x - limb.root, from_end = x - limb.tip.target;
-    const double height = from_root.dot(up), along = from_root.dot(across.cross(up));
-    return 2 * std::abs(from_end.dot(across)) < thickness && 2 * height >= limb.tip.measures.depth &&
-           height <= limb.tip.measures.depth && along >= width[0] && along <= width[1];
-  }
-};
 
 // The vertices where a finite value is more than `least` and no less than at their neighbours, the greatest
 // first. O(vertices log vertices).
@@ -63,8 +42,7 @@ class PlateGrowth {
               const LimbOptions& options, const ProgressCallback& progress)
       : surface_(surface),
         solid_(solid),
-        options_(options),
-        half_area_(half_areas_of_components(surface)),
+        measurement_(surface, options),
         tried_(static_cast<std::size_t>(surface.face_count()), false),
         grown_(tried_.size(), 0),
         asked_(tried_.size(), 0),
@@ -82,7 +60,7 @@ class PlateGrowth {
     constexpr std::size_t kLeastFaces = 16, kWork = 16;
     if (tried_[side] || work_ > kWork * tried_.size()) return std::nullopt;
     tried_[side] = true;
-    Slab slab;
+    PlateSlab slab;
     slab.across = normal_[side];
     slab.thickness = chord(side);
     slab.middle = surface_.face_centroid(side) - 0.5 * slab.thickness * slab.across;
@@ -98,7 +76,9 @@ class PlateGrowth {
     }
     if (faces.size() < kLeastFaces) return std::nullopt;
     fill_gaps(faces);
-    return measured(slab, faces);
+    std::optional<Plate> plate = measurement_.run(slab, faces, [&](Index f) { return grown_[f] == growth_; });
+    if (plate && !is_wide(faces, slab)) return std::nullopt;
+    return plate;
   }
 
   // The same from a vertex of its rim.
@@ -113,19 +93,6 @@ class PlateGrowth {
 
  private:
   static constexpr double kAlike = 1.5;  // two thicknesses of one plate
-  static constexpr double kThin = 0.5;   // its thickness over its width
-
-  struct Slab {
-    Vector3 middle = Vector3::Zero(), across = Vector3::Zero();  // a point of its middle plane; unit
-    double thickness = 0;
-  };
-  // Where a plate meets what it stands on, and which way it stands up.
-  struct Root {
-    Vector3 middle = Vector3::Zero(), up = Vector3::Zero();
-    double width = 0;               // across `up`, along the plate
-    std::vector<Vector3> vertices;  // of its edges
-    bool in_pieces = false;         // none that hangs together is most of it
-  };
 
   // Whether the solid is as thick across at a point of the middle plane.
   bool is_as_thick(const Vector3& x, const Vector3& across, double thickness) const {
@@ -150,7 +117,7 @@ class PlateGrowth {
   // Whether a slab is wider than thick nearly everywhere, and not only as a whole, as tubes that fork in one
   // plane are: whichever way one goes from its sides along it, it goes on there or the opposite way. At most
   // sixteen rays for each of some of the faces.
-  bool is_wide(const std::vector<Index>& faces, const Slab& slab) const {
+  bool is_wide(const std::vector<Index>& faces, const PlateSlab& slab) const {
     constexpr std::size_t kSample = 64;
     constexpr double kBeside = 0.9;  // thicknesses; in a square bar four fifths are nearer to the middle
     constexpr double kShare = 0.5;   // of the area of the sides
@@ -233,7 +200,7 @@ class PlateGrowth {
   }
 
   // How thick the solid is across a plate, below a face of its side or behind a face of its rim.
-  double thickness_at(Index f, const Slab& slab) {
+  double thickness_at(Index f, const PlateSlab& slab) {
     if (is_side(f, slab.across)) return chord(f);
     const Vector3 x = surface_.face_centroid(f) - 0.5 * slab.thickness * normal_[f];
     const double most = kAlike * slab.thickness, one = length_within(x, slab.across, most);
@@ -242,7 +209,7 @@ class PlateGrowth {
 
   // The faces that hang together with one, where the solid is about as thick as the slab and near its middle.
   // Those that are its sides are marked as tried.
-  std::vector<Index> faces_of(const Slab& slab, Index first) {
+  std::vector<Index> faces_of(const PlateSlab& slab, Index first) {
     constexpr double kReach = 0.75;  // thicknesses
     const auto belongs = [&](Index f) {
       watch_.step();
@@ -301,8 +268,8 @@ class PlateGrowth {
   }
 
   // The same slab as all of these faces show it: one of a noisy surface may lie aslant.
-  Slab mean_slab(const Slab& slab, const std::vector<Index>& faces) const {
-    Slab mean;
+  PlateSlab mean_slab(const PlateSlab& slab, const std::vector<Index>& faces) const {
+    PlateSlab mean;
     mean.across = mean.middle = Vector3::Zero();
     std::array<double, 2> area{};
     std::array<Vector3, 2> place{Vector3::Zero(), Vector3::Zero()};
@@ -321,197 +288,13 @@ class PlateGrowth {
     return mean.thickness > 0 ? mean : slab;
   }
 
-  // The faces that have just grown as a plate; nothing where they are none.
-  std::optional<Plate> measured(const Slab& slab, const std::vector<Index>& faces) const {
-    constexpr double kFree = 0.3, kBelow = 0.3, kStraight = 0.4;  // heights
-    constexpr double kSheet = 0.2;
-    std::optional<Root> root = find_root(faces, slab.across);
-    if (!root) return std::nullopt;
-    const PlaneHull hull(root->vertices, slab.across);
-    Plate plate;
-    FoundLimb& limb = plate.limb;
-    limb.part = vertices_of(surface_, faces);
-    limb.root = root->middle;
-    double area = 0;
-    for (const Index f : faces) area += surface_.face_area(f);
-    // Up is away from what it is fixed to, which is not away from the middle of that where it goes round a
-    // corner.
-    PartLevel level;
-    Vector3 end = Vector3::Zero();
-    const auto measure = [&] {
-      root->width = width_of(*root, slab.across);
-      level = {height_of(limb.part, *root), area, 2 * (root->width + slab.thickness)};
-      end = middle_of_end(faces, *root, level);
-    };
-    measure();
-    const Vector3 beyond = hull.beyond(end);
-    if (!(beyond.norm() > 0)) return std::nullopt;
-    root->up = beyond.normalized();
-    measure();
-    double lowest = 0, highest = 0, bottom = 0;
-    for (const Vector3& x : root->vertices) {
-      lowest = std::min(lowest, height_of(x, *root));
-      highest = std::max(highest, height_of(x, *root));
-    }
-    for (const Index v : limb.part)
-      bottom = std::min(bottom, height_of(surface_.position[v], *root) - lowest);
-    // A top on legs and a wall between walls are fixed at more sides than one.
-    if (hull.beyond(end).norm() < kFree * level.depth || bottom < -kBelow * level.depth ||
-        !(level.depth > kLeastTipDepth * options_.smallest) || !is_wide(faces, slab))
-      return std::nullopt;
-    // Plates that meet have roots round corners, and one of two may be more than half of all. What is thick
-    // and so is a body or a bend, and what is fixed in several places is a top on legs.
-    const bool straight = highest - lowest <= kStraight * level.depth;
-    const bool most = area >= half_area_[surface_.component[limb.part.front()]];
-    const bool plain = straight && !most;
-    plate.is_bow = root->in_pieces;
-    if (slab.thickness > (plain ? kThin : kSheet) * root->width || (plate.is_bow && !plain))
-      return std::nullopt;
-    plate.stands_out = level.slenderness() >= options_.slenderness && !is_blunt(level.depth_over_mouth());
-    // How low it is, is clear only on a straight root.
-    if (!plate.stands_out && !straight) return std::nullopt;
-    plate.across = slab.across;
-    plate.up = root->up;
-    plate.thickness = slab.thickness;
-    plate.width = extent(limb.part, slab.across.cross(root->up), root->middle);
-    set_measures(limb.tip.measures, level, slab.thickness);
-    set_end(limb, end, *root, level);
-    return plate;
-  }
-
-  static double height_of(const Vector3& x, const Root& root) { return (x - root.middle).dot(root.up); }
-  double height_of(const std::vector<Index>& part, const Root& root) const {
-    double height = 0;
-    for (const Index v : part) height = std::max(height, height_of(surface_.position[v], root));
-    return height;
-  }
-
-  std::array<double, 2> extent(const std::vector<Index>& part, const Vector3& along,
-                               const Vector3& from) const {
-    std::array<double, 2> range{std::numeric_limits<double>::infinity(),
-                                -std::numeric_limits<double>::infinity()};
-    for (const Index v : part) {
-      const double x = along.dot(surface_.position[v] - from);
-      range = {std::min(range[0], x), std::max(range[1], x)};
-    }
-    return range;
-  }
-
-  static double width_of(const Root& root, const Vector3& across) {
-    const Vector3 along = across.cross(root.up);
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const Vector3& x : root.vertices) {
-      low = std::min(low, along.dot(x));
-      high = std::max(high, along.dot(x));
-    }
-    return high - low;
-  }
-
-  std::optional<Root> find_root(const std::vector<Index>& faces, const Vector3& across) const {
-    constexpr double kMost = 0.75;  // of the root: the rest goes round small gaps
-    Root root;
-    Vector3 centre = Vector3::Zero();
-    double area = 0, length = 0;
-    std::vector<std::pair<Index, Index>> edges;
-    for (const Index f : faces) {
-      const double own = surface_.face_area(f);
-      centre += own * surface_.face_centroid(f);
-      area += own;
-      for (Index h = 3 * f; h < 3 * f + 3; ++h) {
-        if (grown_[SurfaceSnapshot::face(surface_.twin[h])] == growth_) continue;
-        const double edge = surface_.edge_length(h);
-        const Vector3 &a = surface_.position[surface_.origin[h]], &b = surface_.position[surface_.target(h)];
-        root.middle += 0.5 * edge * (a + b);
-        length += edge;
-        root.vertices.push_back(a);
-        edges.emplace_back(surface_.origin[h], surface_.target(h));
-      }
-    }
-    if (!(length > 0)) return std::nullopt;
-    root.middle /= length;
-    root.up = centre / area - root.middle;
-    root.up -= root.up.dot(across) * across;
-    if (!(root.up.norm() > 0)) return std::nullopt;
-    root.up.normalize();
-    root.in_pieces = longest_piece(edges) < kMost * length;
-    return root;
-  }
-
-  // The length of the longest piece of edges that hang together, each given with its ends. They run round
-  // faces, so each begins where another one ends.
-  double longest_piece(std::vector<std::pair<Index, Index>> edges) const {
-    std::sort(edges.begin(), edges.end());
-    std::vector<bool> walked(edges.size(), false);
-    double longest = 0;
-    for (std::size_t first = 0; first < edges.size(); ++first) {
-      if (walked[first]) continue;
-      double length = 0;
-      std::vector<std::size_t> piece{first};
-      walked[first] = true;
-      for (std::size_t i = 0; i < piece.size(); ++i) {
-        const auto [from, to] = edges[piece[i]];
-        length += (surface_.position[to] - surface_.position[from]).norm();
-        const auto next = std::lower_bound(edges.begin(), edges.end(), std::pair(to, Index(0)));
-        for (auto k = static_cast<std::size_t>(next - edges.begin());
-             k < edges.size() && edges[k].first == to; ++k) {
-          if (walked[k]) continue;
-          walked[k] = true;
-          piece.push_back(k);
-        }
-      }
-      longest = std::max(longest, length);
-    }
-    return longest;
-  }
-
-  // The half width of a plate is that across it: centring moves an arc freely along it, so that only this
-  // tells when a leaf has strayed from the middle of the end.
-  static void set_measures(LimbMeasures& m, const PartLevel& level, double thickness) {
-    m.depth = level.depth;
-    m.slenderness = level.slenderness();
-    m.depth_over_mouth = level.depth_over_mouth();
-    m.half_width = m.half_chord = m.half_thickness = 0.5 * thickness;
-  }
-
-  // How deep the end of a plate is, in so many radii of a tube of its area and height.
-  static double depth_of_end(const PartLevel& level, double radii) {
-    return std::min(0.5 * level.depth, radii * level.depth / level.slenderness());
-  }
-
-  Vector3 middle_of_end(const std::vector<Index>& faces, const Root& root, const PartLevel& level) const {
-    const double end = depth_of_end(level, kEnd);
-    Vector3 middle = Vector3::Zero();
-    double area = 0;
-    for (const Index f : faces) {
-      if (height_of(surface_.face_centroid(f), root) < level.depth - end) continue;
-      const double own = surface_.face_area(f);
-      middle += own * surface_.face_centroid(f);
-      area += own;
-    }
-    return area > 0 ? Vector3(middle / area) : Vector3(root.middle + level.depth * root.up);
-  }
-
-  // The cap, the target in the middle of the end, and the vertex that is nearest above it.
-  void set_end(FoundLimb& limb, const Vector3& middle, const Root& root, const PartLevel& level) const {
-    LimbTip& tip = limb.tip;
-    tip.target = middle;
-    const Vector3 top = middle + depth_of_end(level, kEnd) * root.up;
-    for (const Index v : limb.part) {
-      if (height_of(surface_.position[v], root) < level.depth - depth_of_end(level, kTipCap)) continue;
-      tip.cap.push_back(v);
-      const auto away = [&](Index w) { return (surface_.position[w] - top).squaredNorm(); };
-      if (tip.vertex == kNone || away(v) < away(tip.vertex)) tip.vertex = v;
-    }
-  }
-
   const SurfaceSnapshot& surface_;
   const BoundingVolumeHierarchy& solid_;
-  const LimbOptions& options_;
-  std::vector<double> half_area_;  // of each component
-  std::vector<Vector3> normal_;    // of each face
-  std::vector<bool> tried_;        // faces of sides that have grown
-  std::vector<Index> grown_;       // the last growth that it belongs to
-  std::vector<Index> asked_;       // the last growth that came by
+  PlateMeasurement measurement_;
+  std::vector<Vector3> normal_;  // of each face
+  std::vector<bool> tried_;      // faces of sides that have grown
+  std::vector<Index> grown_;     // the last growth that it belongs to
+  std::vector<Index> asked_;     // the last growth that came by
   Index growth_ = 0;
   std::size_t work_ = 0;       // faces that plates came by
   std::vector<double> chord_;  // inward from each face; negative where it was not asked for
