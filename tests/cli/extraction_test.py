@@ -275,8 +275,8 @@ class Terminals(ProgramTest):
         mesh = self.write("three.off", text + "".join(f"3 {a} {b} {c}\n" for a, b, c in faces))
         seen = self.seen(mesh, "a.skel", "--mode", "thesis").decode()
         shares = [int(share) for share in re.findall(r"\r(\d+) %", seen)]
+        self.assertTrue(shares)  # how many of them, and how far they come, is a matter of speed
         self.assertEqual(shares, sorted(shares))
-        self.assertGreater(max(shares), 60)
 
     def test_colour(self):
         self.assertIn(b"\x1b[1;31m", self.seen("absent.off"))

@@ -1,5 +1,7 @@
 // Each component of a surface is extracted by itself: in its own solid, with its own extent and budget.
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <string>
 
 #include "extract/unusual_meshes.h"
 #include "mspskel/extract_skeleton.h"
@@ -192,6 +194,33 @@ TEST_CASE("What is more than a thread's share of the work left has all threads, 
   CHECK(alone({3000, 3000, 3000}, 4) == 3);
   CHECK(alone({3000, 3000, 3000, 3000}, 4) == 0);
   CHECK(alone({}, 4) == 0);
+}
+
+TEST_CASE("Components side by side report how far they are together, which never falls") {
+  SideBySideShare together(8);
+  CHECK(together.share() == 0);
+  together.begin(4);
+  together.begin(3);
+  CHECK(together.share() == Approx(3.5 / 8));
+  together.end(3);
+  together.begin(1);
+  CHECK(together.share() == Approx(5.5 / 8));
+  together.end(1);
+  together.end(4);
+  CHECK(together.share() == Approx(1));
+
+  // The callback is asked on the calling thread, while a component of its own is under way or another one's.
+  const DefaultMesh mesh = to_mesh(scattered_tetrahedra(40));
+  ExtractOptions options;
+  options.execution.threads = 2;
+  std::vector<double> shares;
+  options.execution.progress = [&](const char* stage, double share) {
+    if (std::string(stage) == kSideBySideStage) shares.push_back(share);
+    return true;
+  };
+  extract_skeleton(mesh, options);
+  CHECK(std::is_sorted(shares.begin(), shares.end()));
+  for (const double share : shares) CHECK((share > 0 && share <= 1));
 }
 
 TEST_CASE("Components give the same bytes on any number of threads, and a budget of nodes is shared") {

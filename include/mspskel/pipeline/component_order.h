@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <limits>
 #include <numeric>
@@ -11,8 +12,28 @@
 
 namespace mspskel {
 
-// What the components that are side by side report, as one: the share of them that has been begun.
+// What the components that are side by side report, as one.
 inline constexpr const char* kSideBySideStage = "components side by side";
+
+// How far they are together: half of the work of each counts when it is begun, the other half when it is
+// over. Whichever of them tells it, and whichever ends first, it never falls. Safe on several threads.
+class SideBySideShare {
+ public:
+  explicit SideBySideShare(double work) : work_(work) {}  // of all of them
+  void begin(double work) { add(work / 2); }
+  void end(double work) { add(work / 2); }
+  double share() const { return work_ > 0 ? std::min(1.0, done_.load() / work_) : 1; }
+
+ private:
+  void add(double work) {
+    double done = done_.load();
+    while (!done_.compare_exchange_weak(done, done + work)) {
+    }
+  }
+
+  double work_;
+  std::atomic<double> done_{0};
+};
 
 struct ComponentOrder {
   std::vector<Index> components;  // the largest first

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -69,20 +70,24 @@ class ComponentwiseExtraction {
     vertex_.assign(part_.size(), {});
     std::vector<std::size_t> faces;
     for (const std::vector<Index>& own : own_) faces.push_back(own.size());
-    const ComponentOrder order =
-        order_components(faces, most_working_faces(options_.coarsen, options_.coarsening.vertices),
-                         thread_count(options_.execution));
+    const double working_faces = most_working_faces(options_.coarsen, options_.coarsening.vertices);
+    const ComponentOrder order = order_components(faces, working_faces, thread_count(options_.execution));
+    const auto work = [&](Index c) { return component_work(faces[c], working_faces); };
     const auto beside = order.components.begin() + static_cast<std::ptrdiff_t>(order.alone);
     std::for_each(order.components.begin(), beside, [&](Index c) { extract_one(c, options_of(c)); });
     const auto count = static_cast<Index>(order.components.end() - beside);
+    SideBySideShare together(std::accumulate(
+        beside, order.components.end(), 0.0, [&](double sum, Index c) { return sum + work(c); }));
     run_each_beside(count, options_.execution, [&](Index i, const Execution& aside) {
       ExtractOptions options = options_of(beside[i]);
       options.execution.threads = aside.threads;
       // Stages of several components at the same time would say nothing.
-      options.execution.progress = [&aside, share = static_cast<double>(i) / count](const char*, double) {
-        return !aside.progress || aside.progress(kSideBySideStage, share);
+      options.execution.progress = [&](const char*, double) {
+        return !aside.progress || aside.progress(kSideBySideStage, together.share());
       };
+      together.begin(work(beside[i]));
       extract_one(beside[i], options);
+      together.end(work(beside[i]));
     });
   }
 
