@@ -76,8 +76,8 @@ class ComponentwiseExtraction {
     const auto beside = order.components.begin() + static_cast<std::ptrdiff_t>(order.alone);
     std::for_each(order.components.begin(), beside, [&](Index c) { extract_one(c, options_of(c)); });
     const auto count = static_cast<Index>(order.components.end() - beside);
-    SideBySideShare together(std::accumulate(
-        beside, order.components.end(), 0.0, [&](double sum, Index c) { return sum + work(c); }));
+    SideBySideShare together(std::accumulate(beside, order.components.end(), 0.0,
+                                             [&](double sum, Index c) { return sum + work(c); }));
     run_each_beside(count, options_.execution, [&](Index i, const Execution& aside) {
       ExtractOptions options = options_of(beside[i]);
       options.execution.threads = aside.threads;
