@@ -11,6 +11,7 @@
 #include "mspskel/samples/skin_graph.h"
 #include "support/arc_graphs.h"
 #include "support/meshes.h"
+#include "support/pipes.h"
 #include "support/solids.h"
 #include "topology/voxel_solids.h"
 
@@ -74,6 +75,21 @@ TEST_CASE("Nothing is uncovered where every limb has its arc, and a limb that lo
   const DefaultMesh turned = rotated(mesh, {1, 2, 3}, 1.1);
   const ExtractResult other = extract_skeleton(turned);
   CHECK(uncovered(other.surface, other.skeleton).empty());
+}
+
+TEST_CASE("What has no arc is told, also where it is most of the surface") {
+  // A lamp with an arc in its base alone, from the middle to the rim.
+  const SurfaceSnapshot surface = make_snapshot(united(
+      {{{0, 0, 0}, {0, 0, 0.25}, 0.9}, {{0, 0, 0.1}, {0, 0, 6}, 0.12}, {{0, 0, 5.5}, {0, 0, 7}, 1.1}}, 0.12));
+  CurveSkeleton skeleton;
+  skeleton.nodes.resize(5);
+  for (std::size_t i = 0; i < 5; ++i) skeleton.nodes[i].position = {0.2 * static_cast<double>(i), 0, 0.125};
+  skeleton.node_of_vertex.assign(surface.position.size(), 0);
+  skeleton.edges = {{0, 1}, {1, 2}, {2, 3}, {3, 4}};
+  const std::vector<UncoveredPart> parts = uncovered(surface, skeleton);
+  REQUIRE(parts.size() == 1);
+  CHECK_FALSE(parts[0].is_plate);
+  CHECK(parts[0].position.z() > 6.9);
 }
 
 TEST_CASE("Blocks and balls and plates have nothing that people would call a limb without an arc") {

@@ -101,9 +101,11 @@ MSPSKEL_INLINE std::vector<UncoveredPart> find_uncovered_parts(const SurfaceSnap
     if (outside[v] > 0) beyond.push_back(v);
   const std::vector<double> diagonal = detail::component_diagonals(surface);
   std::vector<UncoveredPart> found;
-  for (const detail::SlenderPart& part :
-       detail::slender_parts(surface, outside, std::move(beyond),
-                             [&](Index v) { return options.smallest * diagonal[surface.component[v]]; })) {
+  // The balls are the body, so that what is beyond them may be nearly all.
+  for (const detail::SlenderPart& part : detail::slender_parts(
+           surface, outside, std::move(beyond),
+           [&](Index v) { return options.smallest * diagonal[surface.component[v]]; },
+           detail::LargestPart::kAny)) {
     if (!(part.slenderest.depth > 0)) continue;
     const double widths = 0.5 * part.slenderest.slenderness();
     if (widths >= kMissedWidths)

@@ -33,13 +33,17 @@ struct SlenderPart {
   PartLevel slenderest_of_few, narrowest_of_few;
 };
 
+// How much of its component a part may be: of two sides of a level the smaller one is the limb. Where it is
+// known which side stands for the body, the other may be most of the component.
+enum class LargestPart { kHalf, kAny };
+
 // The parts of the given vertices that grow from the maxima of the distance until a farther one takes them,
 // as they are where they are deeper than least_depth(vertex); with `few` also at the levels of few vertices.
 // In no particular order.
 template <class LeastDepth>
 std::vector<SlenderPart> slender_parts(const SurfaceSnapshot& surface, const std::vector<double>& distance,
                                        std::vector<Index> vertices, LeastDepth least_depth,
-                                       bool few = false) {
+                                       LargestPart largest = LargestPart::kHalf, bool few = false) {
   struct Notes {
     LevelSum sum;
     Index vertices = 0;
@@ -47,6 +51,9 @@ std::vector<SlenderPart> slender_parts(const SurfaceSnapshot& surface, const std
   };
   using Parts = GrowingParts<Notes>;
   const std::vector<double> half_area = half_areas_of_components(surface);
+  const auto too_large = [&](const PartLevel& level, Index v) {
+    return largest == LargestPart::kHalf && level.area > half_area[surface.component[v]];
+  };
   std::vector<Index> place(surface.position.size(), kNone);
   Parts parts(surface, distance, std::move(vertices), place);
   std::vector<SlenderPart> found;
@@ -60,7 +67,7 @@ std::vector<SlenderPart> slender_parts(const SurfaceSnapshot& surface, const std
     if (!few || notes.vertices >= kLeastEvidence) return;
     PartLevel level = notes.sum.at(distance[v], distance[part.top]);
     if (!(level.depth > least_depth(part.top)) || !(level.area > 1e-12 * level.depth) || !(level.mouth > 0) ||
-        level.area > half_area[surface.component[v]])
+        too_large(level, v))
       return;
     PartLevel &slenderest = notes.slenderest_of_few, &narrowest = notes.narrowest_of_few;
     const bool is_slenderest = slenderest.depth == 0 || level.slenderness() > slenderest.slenderness();
@@ -88,7 +95,7 @@ std::vector<SlenderPart> slender_parts(const SurfaceSnapshot& surface, const std
         const PartLevel level = notes.sum.at(distance[v], distance[part.top]);
         // Within rounding a line, which encloses nothing.
         if (!(level.depth > least_depth(v)) || !(level.area > 1e-12 * level.depth) || !(level.mouth > 0) ||
-            level.area > half_area[surface.component[v]])
+            too_large(level, v))
           return;
         const double evidence = level.slenderness() * notes.vertices;
         const bool tells = evidence >= kLeastEvidence || is_twig(level);

@@ -58,7 +58,7 @@ class UncoveredSurface {
       if (distance_[v] > 0) beyond.push_back(v);
     const double usual = kLeastProtrusion * LimbOptions().smallest;
     const auto least_depth = [&](Index v) { return least * std::min(1.0, 2 * carrier_[v] / usual); };
-    return slender_parts(surface_, distance_, std::move(beyond), least_depth, few);
+    return slender_parts(surface_, distance_, std::move(beyond), least_depth, LargestPart::kHalf, few);
   }
 
   // A part as a limb. Its cap and target are as those of limbs, on what hangs together with the top.
