@@ -561,10 +561,14 @@ TEST_CASE("Small ears count on a body with limbs, and no bump of a body without"
   bump.half_width = bump.half_chord = bump.half_thickness = 1;
   bump.carrier_half_chord = bump.carrier_half_thickness = 1;
   bump.slenderness = 0.7;
+  bump.depth_over_mouth = 0.7;
   bump.msp_ratio = 4;
   CHECK(is_ear(bump, {}));
   CHECK_FALSE(is_limb(bump, {}));
   bump.carrier_half_chord = 0.5;  // wider than what carries it is thick: the corner of a plate
+  CHECK_FALSE(is_ear(bump, {}));
+  bump.carrier_half_chord = 1;
+  bump.depth_over_mouth = 0.4;  // less area than a flat disc with such a rim: a piece of a disc's edge
   CHECK_FALSE(is_ear(bump, {}));
 }
 

@@ -33,10 +33,10 @@ struct CoverageOptions {
 // the union of the maximal balls round the skeleton's nodes (those of the same component, in its solid), a
 // part is what hangs together beyond a level of f, from a maximum down to where it is most slender (pi
 // depth^2 / area, which is length over width of a tube) before it meets a farther part: the measure that
-// tells limbs, with another distance, and without their limit of half of the surface. The area is that of all triangles that a part touches, so few triangles
-// rather hide a part than make one up. Solids and snapshot belong together; radii are measured anew.
-// O((vertices + nodes) log nodes), parallel; the result does not depend on the threads. Throws Cancelled if
-// the callback asks to stop.
+// tells limbs, with another distance, and without their limit of half of the surface. The area is that of all
+// triangles that a part touches, so few triangles rather hide a part than make one up. Solids and snapshot
+// belong together; radii are measured anew. O((vertices + nodes) log nodes), parallel; the result does not
+// depend on the threads. Throws Cancelled if the callback asks to stop.
 std::vector<UncoveredPart> find_uncovered_parts(const SurfaceSnapshot& surface,
                                                 const SolidHierarchies& solids, const CurveSkeleton& skeleton,
                                                 const CoverageOptions& options = {},

@@ -83,13 +83,21 @@ inline bool is_bend(const LimbMeasures& m) {
 // least.
 inline bool is_flap(const LimbMeasures& m) { return m.half_chord < 0.01 * m.half_width; }
 
-// The corner of a body: a bend, the corner of a slab (a fin leaves what is thicker), or blunt, and widening
-// in proportion to its depth or wider than what carries it. A limb is about as wide at its root as before it.
-// Where the whole body lies behind the surface, less of a taper will do. The slab's thickness is told better
-// beside the corner, where fewer chords lead from its edges, and needs no slack.
+// A piece of the edge of a disc or a plate: its area is less than that of a flat disc with a rim as long. The
+// middle of a square plate sees its corners with three quarters of that. No cone has less than all of it, but
+// noise makes rims longer.
+inline bool is_rim(const LimbMeasures& m) {
+  constexpr double kLeast = 0.75;
+  return 2 * m.depth_over_mouth * m.depth_over_mouth < kLeast * m.slenderness;
+}
+
+// The corner of a body: a rim, a bend, the corner of a slab (a fin leaves what is thicker), or blunt, and
+// widening in proportion to its depth or wider than what carries it. A limb is about as wide at its root as
+// before it. Where the whole body lies behind the surface, less of a taper will do. The slab's thickness is
+// told better beside the corner, where fewer chords lead from its edges, and needs no slack.
 inline bool is_corner(const LimbMeasures& m) {
   constexpr double kSlack = 1.1, kWider = 1.35;
-  if (is_bend(m)) return true;
+  if (is_bend(m) || is_rim(m)) return true;
   const bool of_slab = m.carrier_half_thickness < kWider * m.half_thickness;
   const auto of_thickness = [&](double thickness, double slack) {
     return is_slab_corner(m.depth, m.depth_over_mouth, m.slenderness, thickness, slack);
@@ -121,12 +129,15 @@ inline bool is_digit(double depth, double slenderness, const LimbOptions& o) {
   return slenderness >= kFinger * o.slenderness && depth >= 1.6 * o.smallest;
 }
 
+// Slenderness of ears, in that of limbs, times what they are smaller than what carries them.
+inline constexpr double kSlenderEar = 0.65;
+
 // An ear or a horn: a bump rather than a limb, but much smaller than what carries it, and no wider unless it
 // is sharp. Only in a shape that has limbs or whose body ends: a ridge of a plain body may be as much.
 inline bool is_ear(const LimbMeasures& m, const LimbOptions& o) {
   constexpr double kAsWide = 1.25;  // a bump's radius by its area is larger than that of its slices
   if (is_blunt(m.depth_over_mouth) && m.half_width > kAsWide * m.carrier_half_chord) return false;
-  return m.slenderness >= 0.3 * o.slenderness && m.slenderness * m.msp_ratio >= 0.65 * o.slenderness &&
+  return m.slenderness >= 0.3 * o.slenderness && m.slenderness * m.msp_ratio >= kSlenderEar * o.slenderness &&
          !is_corner(m) && !is_flap(m);
 }
 

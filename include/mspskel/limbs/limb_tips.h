@@ -31,10 +31,13 @@ struct LimbTip {
   LimbMeasures measures;
   std::vector<Index> cap;    // the end: the outer half of that depth, and at most 1.2 half widths
   std::vector<Index> plate;  // all of the limb where it is a plate: its corners are no limbs
+  std::vector<Index> head;   // in whose middle it ends, as a pole does in a disc: its bumps are no limbs
   // A wing or a leaf, thin as it may be: it is as slender as a finger and does not widen to its end, and the
   // middle of its surface lies in the solid, other than that of a wall which bends round a hollow.
   bool is_lobe = false;
-  double flat_end = 0.0;  // the radius of the flat cap in which it ends, as of a tube that was cut off; or 0
+  // The radius of the flat cap in which it ends, as of a tube that was cut off, or that of the neck behind
+  // the squat head in whose middle it ends; or 0.
+  double flat_end = 0.0;
 };
 
 // The limbs of each component. A limb is what lies beyond a maximum of the inner distance from the middle, as

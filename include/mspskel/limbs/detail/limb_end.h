@@ -1,4 +1,4 @@
-// Where a limb ends along its own walls.
+// Where a limb ends: along its own walls, or before the lobes that it ends in.
 #pragma once
 
 #include <Eigen/Eigenvalues>
@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "mspskel/limbs/detail/part_shape.h"
+#include "mspskel/limbs/detail/part_walk.h"
+#include "mspskel/limbs/limb_tips.h"
 
 namespace mspskel {
 namespace detail {
@@ -62,6 +64,23 @@ class EndAlong {
   const SurfaceSnapshot& surface_;
   std::vector<double> height_;  // along the last direction, of the last vertices and those beside them
 };
+
+// A limb that ends in two low lobes that are alike ends in the middle before them: no place in one of them
+// stands for both.
+inline void end_before_fork(const SurfaceSnapshot& surface, const std::vector<double>& distance,
+                            PartWalk& walk, double fork, LimbTip& tip) {
+  const double top = distance[tip.vertex], end = kEnd * tip.measures.half_width;
+  std::vector<Index> part = walk.beyond(tip.vertex, fork - end);
+  PartShapeSum all(surface, distance, fork - end), lobes(surface, distance, fork);
+  for (const Index v : part) {
+    all.add_vertex(v);
+    if (distance[v] >= fork) lobes.add_vertex(v);
+  }
+  const PartShape a = all.shape(top), b = lobes.shape(top);
+  if (!(a.area > b.area)) return;
+  tip.target = (a.area * a.centre - b.area * b.centre) / (a.area - b.area);
+  tip.cap = tip.head = std::move(part);
+}
 
 }  // namespace detail
 }  // namespace mspskel

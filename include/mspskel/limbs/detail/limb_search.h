@@ -2,7 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -11,8 +13,11 @@
 #include "mspskel/base/watch.h"
 #include "mspskel/limbs/detail/growing_parts.h"
 #include "mspskel/limbs/detail/limb_end.h"
+#include "mspskel/limbs/detail/limb_head.h"
 #include "mspskel/limbs/detail/part_level.h"
 #include "mspskel/limbs/detail/part_shape.h"
+#include "mspskel/limbs/detail/part_walk.h"
+#include "mspskel/limbs/detail/slender_parts.h"
 #include "mspskel/limbs/limb_tips.h"
 #include "mspskel/solid/detail/inward_chord.h"
 
@@ -41,7 +46,7 @@ class LimbTipSearch {
         distance_(distance),
         watch_(progress, "arcs"),
         half_area_(half_areas_of_components(surface)),
-        walked_(surface.position.size(), 0),
+        walk_(surface, distance),
         end_(surface),
         flooded_(surface.position.size(), 0) {}
 
@@ -56,7 +61,10 @@ class LimbTipSearch {
           watch_.ask();
           judge_before(high, saddle);
           judge_before(low, saddle);
-          if (finish(low)) high.notes.own = std::max(high.notes.own, distance_[saddle]);
+          if (finish(low))
+            meet_limb(high.notes, distance_[saddle]);
+          else if (are_lobes(high, low, saddle))
+            high.notes.forks.push_back({distance_[saddle], low.top, are_bumps(high, low, saddle)});
           high.notes.sum.add(low.notes.sum);
           high.notes.vertices += low.notes.vertices;
           high.notes.euler += low.notes.euler;
@@ -76,6 +84,12 @@ class LimbTipSearch {
   struct Level {
     double slenderness = 0, distance = 0;
   };
+  // Where two lobes that are alike met, neither of them a limb.
+  struct Fork {
+    double distance;
+    Index other;  // the top of the lower one
+    bool bumps;
+  };
   struct Notes {
     LevelSum sum;
     Index vertices = 0;
@@ -85,6 +99,8 @@ class LimbTipSearch {
     double deepest = 0;  // the last level at which it is as slender as a limb; 0 if there is none
     double own = 0;      // where it first met another limb
     Level neck;          // where it leaves what carries it, which would be a part of the same limb farther in
+    bool is_limb_alone = false;  // before it met that
+    std::vector<Fork> forks;
   };
   using Part = GrowingParts<Notes>::Part;
 
@@ -125,6 +141,29 @@ class LimbTipSearch {
       notes.deepest = at;
     if (notes.euler == 1 && slenderness > notes.slenderest_disc.slenderness)
       notes.slenderest_disc = {slenderness, at};
+  }
+
+  void meet_limb(Notes& notes, double at) const {
+    if (notes.own == 0)
+      notes.is_limb_alone = notes.slenderest.slenderness >= kSlenderEar * options_.slenderness;
+    notes.own = std::max(notes.own, at);
+  }
+
+  // Whether two parts that meet are as deep and as large as each other.
+  bool are_lobes(const Part& high, const Part& low, Index saddle) const {
+    const double level = distance_[saddle];
+    const PartLevel a = high.notes.sum.at(level, distance_[high.top]);
+    const PartLevel b = low.notes.sum.at(level, distance_[low.top]);
+    return high.notes.own == 0 && low.notes.own == 0 && about_equal(a.depth, b.depth) &&
+           about_equal(std::sqrt(std::max(a.area, 0.0)), std::sqrt(std::max(b.area, 0.0)));
+  }
+
+  bool are_bumps(const Part& high, const Part& low, Index saddle) const {
+    constexpr double kAnyCarrier = std::numeric_limits<double>::infinity();
+    const auto is_one = [&](const Part& part) {
+      return is_bump(part.notes.sum.at(distance_[saddle], distance_[part.top]), kAnyCarrier, options_);
+    };
+    return is_one(high) && is_one(low);
   }
 
   // What the vertex adds to the Euler characteristic of the vertices beyond it: itself, the edges to them,
@@ -171,6 +210,19 @@ class LimbTipSearch {
       if (!is_ear(found->tip.measures, options_)) return false;
       found->tip.kind = TipKind::kEar;
     }
+    LimbTip& tip = found->tip;
+    const Fork* const fork = last_fork(tip, level.distance, notes.forks);
+    if (fork != nullptr && fork->bumps && add_bumps(*fork, tip.vertex)) return true;
+    const bool ends_so = notes.own == 0 || !notes.is_limb_alone;
+    if (const std::optional<LimbHead> head =
+            ends_so ? find_head(surface_, solid_, distance_, walk_, tip, found->part) : std::nullopt) {
+      if (carries_on(*head)) return false;
+      tip.target = head->end;
+      tip.cap = tip.head = head->part;
+      tip.flat_end = head->neck;
+    } else if (fork != nullptr) {
+      end_before_fork(surface_, distance_, walk_, fork->distance, tip);
+    }
     limbs_.push_back(std::move(*found));
     return true;
   }
@@ -178,9 +230,9 @@ class LimbTipSearch {
   // The part round a top beyond a level as a limb; nothing if it has no slices, or is the bow of a handle.
   std::optional<FoundLimb> measure(Index top, double level, double own) {
     FoundLimb found;
-    found.part = beyond(top, level);
+    found.part = walk_.beyond(top, level);
     const std::vector<Index>& part = found.part;
-    const std::vector<Index> round = ring(part);
+    const std::vector<Index> round = walk_.ring(part);
     if (openings(round, part) > 1) return std::nullopt;
     for (const Index v : round) found.root += surface_.position[v] / static_cast<double>(round.size());
     LimbTip& tip = found.tip;
@@ -206,7 +258,7 @@ class LimbTipSearch {
     m.mean_depth = shape.mean_depth / m.depth;
     m.depth_over_mouth = cut.depth_over_mouth();
     const double reach = std::max(2 * m.half_width, options_.smallest);
-    const std::vector<Index> carrier = surface_beside(round, found.root, reach);
+    const std::vector<Index> carrier = walk_.surface_beside(round, found.root, reach);
     const std::vector<Index> beside = some_of(carrier);
     const std::vector<double> carrier_chords = half_chords(beside);
     m.carrier_half_chord = mean_of_logarithms(beside, carrier_chords);
@@ -222,8 +274,8 @@ class LimbTipSearch {
   bool set_end(LimbTip& tip, double own) {
     const LimbMeasures& m = tip.measures;
     const double end = std::min(0.5 * m.depth, kEnd * m.half_width);
-    tip.cap = beyond(tip.vertex,
-                     std::max(own, distance_[tip.vertex] - std::min(0.5 * m.depth, kTipCap * m.half_width)));
+    tip.cap = walk_.beyond(
+        tip.vertex, std::max(own, distance_[tip.vertex] - std::min(0.5 * m.depth, kTipCap * m.half_width)));
     PartShapeSum sum(surface_, distance_, distance_[tip.vertex] - end);
     for (const Index v : tip.cap)
       if (distance_[tip.vertex] - distance_[v] <= end) sum.add_vertex(v);
@@ -231,6 +283,40 @@ class LimbTipSearch {
     tip.target = shape.centre;
     if (!(shape.area > 0)) return false;
     set_straight_end(tip, end);
+    return true;
+  }
+
+  // Whether a limb that was found before leaves a head where the limb that carries it would end.
+  bool carries_on(const LimbHead& head) const {
+    return std::any_of(limbs_.begin(), limbs_.end(), [&](const FoundLimb& limb) {
+      if (!walk_.holds(limb.tip.vertex)) return false;
+      const Vector3 from_middle = limb.root - head.middle;
+      return from_middle.dot(head.along) > 0 &&
+             from_middle.cross(head.along).norm() <= limb.tip.measures.half_width;
+    });
+  }
+
+  // The deepest fork of a limb's end, if it has one.
+  const Fork* last_fork(const LimbTip& tip, double level, const std::vector<Fork>& forks) const {
+    constexpr double kDeepest = 2;  // half widths
+    const double top = distance_[tip.vertex], width = tip.measures.half_width, end = kEnd * width;
+    const Fork* last = nullptr;
+    for (const Fork& fork : forks)
+      if (fork.distance > level + end && top - fork.distance > end && top - fork.distance <= kDeepest * width)
+        last = &fork;
+    return last;
+  }
+
+  // Both lobes of a limb's end as ears; neither, if one of them is none.
+  bool add_bumps(const Fork& fork, Index top) {
+    std::array<std::optional<FoundLimb>, 2> lobes{measure(top, fork.distance, 0.0),
+                                                  measure(fork.other, fork.distance, 0.0)};
+    for (const auto& lobe : lobes)
+      if (!lobe) return false;
+    for (auto& lobe : lobes) {
+      lobe->tip.kind = TipKind::kEar;
+      limbs_.push_back(std::move(*lobe));
+    }
     return true;
   }
 
@@ -242,7 +328,7 @@ class LimbTipSearch {
     const LimbMeasures& m = tip.measures;
     if (m.slenderness < kLeastSlenderness) return;
     const auto near_tip = [&](double half_widths) {
-      return beyond(tip.vertex, distance_[tip.vertex] - std::min(m.depth, half_widths * m.half_width));
+      return walk_.beyond(tip.vertex, distance_[tip.vertex] - std::min(m.depth, half_widths * m.half_width));
     };
     const std::optional<WallDirection> walls = direction_of_walls(surface_, near_tip(kLength));
     if (!walls) return;
@@ -251,34 +337,6 @@ class LimbTipSearch {
     const Vector3 outward = along < 0 ? Vector3(-walls->axis) : walls->axis;
     if (const std::optional<Vector3> middle = end_.middle(near_tip(kEndLength), outward, end))
       tip.target = *middle;
-  }
-
-  // The vertices beyond a level that hang together with a top; they are marked as walked.
-  std::vector<Index> beyond(Index top, double level) {
-    ++walk_;
-    std::vector<Index> part{top};
-    walked_[top] = walk_;
-    for (std::size_t i = 0; i < part.size(); ++i)
-      for_each_neighbour(surface_, part[i], [&](Index w) {
-        if (walked_[w] == walk_ || distance_[w] < level) return;
-        walked_[w] = walk_;
-        part.push_back(w);
-      });
-    return part;
-  }
-
-  // The vertices next to a part that has just been walked.
-  std::vector<Index> ring(const std::vector<Index>& part) {
-    const Index inside = walk_++;
-    std::vector<Index> round;
-    for (const Index v : part)
-      for_each_neighbour(surface_, v, [&](Index w) {
-        if (walked_[w] == inside || walked_[w] == walk_) return;
-        walked_[w] = walk_;
-        round.push_back(w);
-      });
-    for (const Index v : part) walked_[v] = walk_;
-    return round;
   }
 
   // How many ways lead out of a part through the ring round it. A dip in the part is none.
@@ -311,23 +369,12 @@ class LimbTipSearch {
       watch_.step();
       area += surface_.vertex_area[loop[i]];
       for_each_neighbour(surface_, loop[i], [&](Index w) {
-        if (walked_[w] == walk_ || flooded_[w] == flood) return;
+        if (walk_.holds(w) || flooded_[w] == flood) return;
         flooded_[w] = flood;
         loop.push_back(w);
       });
     }
     return area > least;
-  }
-
-  // The ring round a part that has just been walked, and the surface beyond it as far as `reach`.
-  std::vector<Index> surface_beside(std::vector<Index> round, const Vector3& middle, double reach) {
-    for (std::size_t i = 0; i < round.size(); ++i)
-      for_each_neighbour(surface_, round[i], [&](Index w) {
-        if (walked_[w] == walk_ || (surface_.position[w] - middle).squaredNorm() >= reach * reach) return;
-        walked_[w] = walk_;
-        round.push_back(w);
-      });
-    return round;
   }
 
   // As many as tell their chords well enough.
@@ -373,8 +420,7 @@ class LimbTipSearch {
   const std::vector<double>& distance_;
   Watch watch_;
   std::vector<double> half_area_;  // of each component
-  std::vector<Index> walked_;      // the last walk that came by
-  Index walk_ = 0;
+  PartWalk walk_;
   EndAlong end_;
   std::vector<Index> flooded_;  // the last flood that came by
   Index last_flood_ = 0;

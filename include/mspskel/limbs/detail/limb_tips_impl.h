@@ -330,7 +330,7 @@ MSPSKEL_INLINE std::vector<LimbTip> on_coarser_surface(std::vector<LimbTip> tips
                                                        const std::vector<Index>& coarse_vertex) {
   for (LimbTip& tip : tips) {
     tip.vertex = coarse_vertex[tip.vertex];
-    for (std::vector<Index>* part : {&tip.cap, &tip.plate}) {
+    for (std::vector<Index>* part : {&tip.cap, &tip.plate, &tip.head}) {
       for (Index& v : *part) v = coarse_vertex[v];
       std::sort(part->begin(), part->end());
       part->erase(std::unique(part->begin(), part->end()), part->end());

@@ -45,7 +45,7 @@ class LimbCompletion {
     constexpr double kLeft = 0.25;  // of its reach: less is left where another arc stands for the part
     Index added = reach_tips();
     added += reach_plates();
-    mark_plates();
+    mark_whole_ends();
     for (int round = 0; round < kRounds; ++round) {
       // All are told before any gets its arc, whose balls may come near the others: equal limbs are told
       // alike.
@@ -115,14 +115,17 @@ class LimbCompletion {
     return added;
   }
 
-  // The balls of an arc leave most of a plate uncovered, and what ends there is a corner of it.
-  void mark_plates() {
-    in_plate_.assign(surface_.position.size(), false);
+  // The balls of an arc leave most of a plate or a head uncovered, and what ends there is a corner of it.
+  void mark_whole_ends() {
+    in_whole_end_.assign(surface_.position.size(), false);
     const std::vector<std::size_t> leaf =
         leaves_of_tips(graph_, ArcLeaves(graph_, graph_.incidence()), tips_);
-    for (std::size_t i = 0; i < tips_.size(); ++i)
-      if (leaf[i] != kNoLeaf)
-        for (const Index v : tips_[i].plate) in_plate_[v] = true;
+    for (std::size_t i = 0; i < tips_.size(); ++i) {
+      // A head may have the end of an arc that no joint makes a leaf.
+      for (const Index v : tips_[i].head) in_whole_end_[v] = true;
+      if (leaf[i] == kNoLeaf) continue;
+      for (const Index v : tips_[i].plate) in_whole_end_[v] = true;
+    }
   }
 
   // How far the balls stay away from the tip of a limb that has no arc of its own: another one may have led
@@ -161,7 +164,8 @@ class LimbCompletion {
     Index added = 0;
     for (const LimbTip& tip :
          equal_limbs(graph_, surface_, solid_, tips_, least_protrusion(), inner_.is_input(), execution_)) {
-      if (uncovered_.distance(tip.vertex) <= uncovered(tip) || !reach_tip(tip)) continue;
+      if (in_whole_end_[tip.vertex] || uncovered_.distance(tip.vertex) <= uncovered(tip) || !reach_tip(tip))
+        continue;
       tips_.push_back(tip);
       ++added;
     }
@@ -218,7 +222,7 @@ class LimbCompletion {
         [&](std::size_t i) { return is_block_corner(parts[i].narrowest.depth_over_mouth()); });
     std::vector<LimbTip> limbs;
     for (std::size_t i = 0; i < parts.size(); ++i)
-      if (limb[i] && !in_plate_[parts[i].top])
+      if (limb[i] && !in_whole_end_[parts[i].top])
         limbs.push_back(uncovered_.limb(parts[i].top, levels[i].value_or(parts[i].slenderest), solid_));
     std::sort(limbs.begin(), limbs.end(), [](const LimbTip& a, const LimbTip& b) {
       return a.measures.depth != b.measures.depth ? a.measures.depth > b.measures.depth : a.vertex < b.vertex;
@@ -277,7 +281,7 @@ class LimbCompletion {
   const Execution& execution_;
   LimbWays ways_;
   UncoveredSurface uncovered_;
-  std::vector<bool> in_plate_;  // per vertex, of a plate that has its arc
+  std::vector<bool> in_whole_end_;  // per vertex, of a plate or a head that has its arc
   std::vector<Index> hub_component_;
 };
 
