@@ -2,17 +2,20 @@
 // edges.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
+#include "mspskel/collapse/detail/loop_filling.h"
 #include "mspskel/collapse/volume_cocycles.h"
 #include "mspskel/mesh/detail/box_index.h"
 
 namespace mspskel {
 
-// Signed crossings of a segment with the region of each cocycle (disc, flat region with holes), or its share
-// of the linking number with the cocycle's loop. Along a closed polyline inside the solid the labels add up
-// to the values of the cocycles on its homology class; on a single segment they mean nothing.
+// Signed crossings of a segment with the region of each cocycle (disc, flat region with holes), or with a
+// surface that fills the cocycle's loop: its share of the linking number. Along a closed polyline inside the
+// solid the labels add up to the values of the cocycles on its homology class; on a single segment they mean
+// nothing.
 //
 // Holds the regions' outlines, in hierarchies of boxes; the cocycles may go. const and safe to share between
 // threads.
@@ -20,8 +23,8 @@ class CrossingLabels {
  public:
   // Rank 0: every label is zero.
   CrossingLabels() : CrossingLabels(VolumeCocycles{}) {}
-  // `attempt` picks the direction along which loops are looked at (linking numbers only). Cost: O(n log n)
-  // for n points of regions and loops.
+  // `attempt` picks the surfaces that fill the loops (linking numbers only). Cost: O(n log n) for n points of
+  // regions and loops.
   explicit CrossingLabels(const VolumeCocycles& cocycles, int attempt = 0);
 
   Index rank() const { return static_cast<Index>(parts_.size()); }
@@ -30,13 +33,13 @@ class CrossingLabels {
   // Whether entry i of the labels is crossings with flat regions of the solid.
   bool is_region(Index i) const { return !parts_[i].is_loop; }
   // Whether some cocycle is a linking number.
-  bool has_loops() const { return !loop_edges_.empty(); }
+  bool has_loops() const { return !filling_[0].triangles.empty(); }
 
   // Label of the way from a to b. `clear` is set to false where rounding leaves a doubt, else left alone.
-  // Cost: O(log rank) where no region is near; a region whose plane is met costs its outlines, and the points
-  // of those whose boxes the place is in.
+  // Cost: O(log rank) where no region and no loop's surface is near; a region whose plane is met costs its
+  // outlines, and the points of those whose boxes the place is in.
   CocycleLabel operator()(const Vector3& a, const Vector3& b, bool& clear) const {
-    return label(a, b, false, clear);
+    return label(a, b, filling_[0], clear);
   }
   CocycleLabel operator()(const Vector3& a, const Vector3& b) const {
     bool clear = true;
@@ -49,10 +52,10 @@ class CrossingLabels {
   // disc fills it. Cost: that of one label where no region is near.
   bool goes_round(const std::vector<Vector3>& ring) const;
 
-  // Labels by the crossings below the loops (negated) instead of those above; equal round every closed
-  // polyline, which is the check on rounding. The same for regions.
-  CocycleLabel from_below(const Vector3& a, const Vector3& b, bool& clear) const {
-    return label(a, b, true, clear);
+  // Labels by other surfaces that fill the loops; equal round every closed polyline, which is the check on
+  // rounding. The same for regions.
+  CocycleLabel by_other_surfaces(const Vector3& a, const Vector3& b, bool& clear) const {
+    return label(a, b, filling_[1], clear);
   }
 
  private:
@@ -65,31 +68,32 @@ class CrossingLabels {
     bool is_loop;
     Plane plane;
     std::vector<Outline> outlines;  // of a region
-    std::vector<Vector3> loop;      // in view coordinates
   };
   struct Part {
     Index component = kNone;
     bool is_loop = false;
   };
-  struct LoopEdge {
-    Index row, point;
+  struct LoopTriangle {
+    Index row;
+    detail::FillingTriangle corner;
+  };
+  struct Filling {
+    std::vector<LoopTriangle> triangles;
+    detail::BoxIndex boxes;  // of triangles
   };
 
   void index_regions(const VolumeCocycles& cocycles);
-  void index_loops();
-  Vector3 in_view(const Vector3& p) const;
-  // Whether a loop may pass through a closed polyline: it is near the points' box, in which a disc fills it.
-  bool may_link(const std::vector<Vector3>& points) const;
-  CocycleLabel label(const Vector3& a, const Vector3& b, bool below, bool& clear) const;
+  void index_loops(const VolumeCocycles& cocycles, int attempt);
+  // Whether a loop may pass through a closed polyline in the box, in which a disc fills it.
+  bool may_link(const Vector3& low, const Vector3& high) const;
+  CocycleLabel label(const Vector3& a, const Vector3& b, const Filling& filling, bool& clear) const;
   static int region_crossing(const Row& row, const Vector3& a, const Vector3& b);
 
-  Vector3 u_, v_, d_;        // view coordinates, the third toward the viewer
   std::vector<Row> rows_;    // per cocycle
   std::vector<Part> parts_;  // per entry of the labels
-  std::vector<LoopEdge> loop_edges_;
+  std::array<Filling, 2> filling_;
   detail::BoxIndex regions_;     // of rows
-  detail::BoxIndex loops_;       // of loop edges, in view coordinates, endless along the view
-  detail::BoxIndex loop_boxes_;  // of loop edges, in view coordinates
+  detail::BoxIndex loop_edges_;  // of rows, by the edges of their loops
 };
 
 }  // namespace mspskel

@@ -6,16 +6,12 @@
 
 #include "mspskel/base/linkage.h"
 #include "mspskel/collapse/detail/flat_regions.h"
-#include "mspskel/collapse/detail/linking_cocycles.h"
 
 namespace mspskel {
 MSPSKEL_INLINE CrossingLabels::CrossingLabels(const VolumeCocycles& cocycles, int attempt) {
-  const detail::View view(detail::view_direction(attempt));
-  u_ = view.u, v_ = view.v, d_ = view.d;
   parts_.resize(static_cast<std::size_t>(cocycles.rank));
   for (const VolumeCocycle& cocycle : cocycles.cocycle) {
-    Row row{
-        cocycles.image_of(static_cast<Index>(rows_.size())), cocycle.contours.empty(), cocycle.plane, {}, {}};
+    Row row{cocycles.image_of(static_cast<Index>(rows_.size())), cocycle.contours.empty(), cocycle.plane, {}};
     for (const auto& entry : row.image.entries()) parts_[entry.index] = {cocycle.component, row.is_loop};
     const detail::PlaneFrame frame(cocycle.plane.normal);
     for (const Contour& contour : cocycle.contours) {
@@ -25,11 +21,10 @@ MSPSKEL_INLINE CrossingLabels::CrossingLabels(const VolumeCocycles& cocycles, in
         outline.box.extend(outline.point.back());
       }
     }
-    for (const Vector3& p : cocycle.loop) row.loop.push_back(view(p));
     rows_.push_back(std::move(row));
   }
   index_regions(cocycles);
-  index_loops();
+  index_loops(cocycles, attempt);
 }
 
 MSPSKEL_INLINE void CrossingLabels::index_regions(const VolumeCocycles& cocycles) {
@@ -42,23 +37,29 @@ MSPSKEL_INLINE void CrossingLabels::index_regions(const VolumeCocycles& cocycles
   regions_.build();
 }
 
-MSPSKEL_INLINE void CrossingLabels::index_loops() {
-  constexpr double kEndless = 1e3;  // model extents
+MSPSKEL_INLINE void CrossingLabels::index_loops(const VolumeCocycles& cocycles, int attempt) {
+  constexpr double kGolden = 0.6180339887498949;  // its multiples fall between each other
   for (Index i = 0; i < static_cast<Index>(rows_.size()); ++i) {
-    if (rows_[i].image.is_zero()) continue;
-    const std::vector<Vector3>& loop = rows_[i].loop;
+    const std::vector<Vector3>& loop = cocycles.cocycle[i].loop;
+    if (rows_[i].image.is_zero() || loop.empty()) continue;
     for (std::size_t k = 0; k < loop.size(); ++k) {
-      Eigen::AlignedBox3d box(loop[k]);
-      box.extend(loop[k + 1 == loop.size() ? 0 : k + 1]);
-      loop_boxes_.add(static_cast<Index>(loop_edges_.size()), box.min(), box.max());
-      box.min().z() = -kEndless;
-      box.max().z() = kEndless;
-      loops_.add(static_cast<Index>(loop_edges_.size()), box.min(), box.max());
-      loop_edges_.push_back({i, static_cast<Index>(k)});
+      const Vector3 &p = loop[k], &q = loop[k + 1 == loop.size() ? 0 : k + 1];
+      loop_edges_.add(i, p.cwiseMin(q), p.cwiseMax(q));
+    }
+    for (int which = 0; which < 2; ++which) {
+      const double turn = kGolden * (2 * attempt + which);
+      const auto start =
+          static_cast<std::size_t>((turn - std::floor(turn)) * static_cast<double>(loop.size()));
+      Filling& filling = filling_[which];
+      detail::fill_polygon(loop, start, [&](const detail::FillingTriangle& t) {
+        filling.boxes.add(static_cast<Index>(filling.triangles.size()), t[0].cwiseMin(t[1]).cwiseMin(t[2]),
+                          t[0].cwiseMax(t[1]).cwiseMax(t[2]));
+        filling.triangles.push_back({i, t});
+      });
     }
   }
-  loops_.build();
-  loop_boxes_.build();
+  loop_edges_.build();
+  for (Filling& filling : filling_) filling.boxes.build();
 }
 
 // +1 from the plane's negative to its positive side.
@@ -72,23 +73,20 @@ MSPSKEL_INLINE int CrossingLabels::region_crossing(const Row& row, const Vector3
   return !inside ? 0 : to >= 0 ? 1 : -1;
 }
 
-MSPSKEL_INLINE CocycleLabel CrossingLabels::label(const Vector3& a, const Vector3& b, bool below,
+MSPSKEL_INLINE CocycleLabel CrossingLabels::label(const Vector3& a, const Vector3& b, const Filling& filling,
                                                   bool& clear) const {
   CocycleLabel result;
-  regions_.in_box(a.cwiseMin(b), a.cwiseMax(b), [&](Index i) {
+  const Vector3 low = a.cwiseMin(b), high = a.cwiseMax(b);
+  regions_.in_box(low, high, [&](Index i) {
     const int value = region_crossing(rows_[i], a, b);
     if (value != 0) result += rows_[i].image * value;
   });
-  if (loop_edges_.empty()) return result;
-  const Vector3 va = in_view(a), vb = in_view(b);
-  loops_.in_box(va.cwiseMin(vb), va.cwiseMax(vb), [&](Index e) {
-    const std::vector<Vector3>& loop = rows_[loop_edges_[e].row].loop;
-    const auto k = static_cast<std::size_t>(loop_edges_[e].point);
-    detail::CrossingCount count;
-    if (!detail::count_crossing(loop[k], loop[k + 1 == loop.size() ? 0 : k + 1], va, vb, count))
+  filling.boxes.in_box(low, high, [&](Index i) {
+    const std::optional<int> value = detail::crossing_of(filling.triangles[i].corner, a, b);
+    if (!value)
       clear = false;
-    const std::int64_t value = below ? -count.below : count.above;
-    if (value != 0) result += rows_[loop_edges_[e].row].image * static_cast<std::int32_t>(value);
+    else if (*value != 0)
+      result += rows_[filling.triangles[i].row].image * *value;
   });
   return result;
 }
@@ -100,16 +98,9 @@ MSPSKEL_INLINE CocycleLabel CrossingLabels::along(const std::vector<Vector3>& po
   return label;
 }
 
-MSPSKEL_INLINE Vector3 CrossingLabels::in_view(const Vector3& p) const {
-  return {u_.dot(p), v_.dot(p), d_.dot(p)};
-}
-
-MSPSKEL_INLINE bool CrossingLabels::may_link(const std::vector<Vector3>& points) const {
-  if (loop_edges_.empty()) return false;
-  Eigen::AlignedBox3d box;
-  for (const Vector3& p : points) box.extend(in_view(p));
+MSPSKEL_INLINE bool CrossingLabels::may_link(const Vector3& low, const Vector3& high) const {
   bool any = false;
-  loop_boxes_.in_box(box.min(), box.max(), [&](Index) { any = true; });
+  loop_edges_.in_box(low, high, [&](Index) { any = true; });
   return any;
 }
 
@@ -133,7 +124,7 @@ MSPSKEL_INLINE bool CrossingLabels::goes_round(const std::vector<Vector3>& ring)
     for (std::size_t i = 0; i < ring.size(); ++i) sum += region_crossing(rows_[row], ring[i], next(i));
     if (sum != 0) label += rows_[row].image * sum;
   });
-  if (!label.is_zero() || !may_link(ring)) return !label.is_zero();
+  if (!label.is_zero() || !may_link(low, high)) return !label.is_zero();
   bool clear = true;
   for (std::size_t i = 0; i < ring.size(); ++i) label += (*this)(ring[i], next(i), clear);
   return !clear || !label.is_zero();

@@ -43,7 +43,7 @@ inline CycleCrossings cross_cycles_along(const CrossingLabels& crossings, const 
                                          Index edges_inside, const std::vector<Index>& component,
                                          const ProgressCallback& progress) {
   CycleCrossings result;
-  LabelledForest above(static_cast<Index>(graph.position.size())), below = above;
+  LabelledForest forest(static_cast<Index>(graph.position.size())), other = forest;
   LabelRank rank;
   CocycleLabel loop, check;
   for (std::size_t e = 0; e < graph.edges.size(); ++e) {
@@ -51,8 +51,8 @@ inline CycleCrossings cross_cycles_along(const CrossingLabels& crossings, const 
     const auto [a, b] = graph.edges[e];
     const Vector3 &p = graph.position[a], &q = graph.position[b];
     const CocycleLabel label = crossings(p, q, result.clear);
-    below.join(a, b, crossings.from_below(p, q, result.clear), check);
-    if (above.join(a, b, label, loop)) continue;
+    other.join(a, b, crossings.by_other_surfaces(p, q, result.clear), check);
+    if (forest.join(a, b, label, loop)) continue;
     ++result.cycles;
     CocycleLabel own;
     for (const auto& [row, value] : loop.entries())
@@ -71,9 +71,9 @@ inline CycleCrossings cross_cycles_along(const CrossingLabels& crossings, const 
 inline CycleCrossings cross_cycles(const VolumeCocycles& cocycles, const PolylineGraph& graph,
                                    Index edges_inside, const std::vector<Index>& component,
                                    const ProgressCallback& progress) {
-  constexpr int kDirections = 12;
+  constexpr int kAttempts = 12;
   CycleCrossings result;
-  for (int attempt = 0; attempt < kDirections; ++attempt) {
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
     result = cross_cycles_along(CrossingLabels(cocycles, attempt), graph, edges_inside, component, progress);
     if (result.clear) break;
   }
