@@ -43,6 +43,23 @@ inline std::optional<double> neck_of(const SurfaceSnapshot& surface, const std::
   return distance[part[neck - mouth.begin()]];
 }
 
+// The middle of the surface for two radii of the mouth below a level, beyond which a part has the given
+// shape; nothing where the limb begins there.
+inline std::optional<Vector3> middle_below(const SurfaceSnapshot& surface,
+                                           const std::vector<double>& distance, Index top,
+                                           const std::vector<Index>& limb, double level,
+                                           const PartShape& beyond) {
+  double least = level;
+  for (const Index v : limb) least = std::min(least, distance[v]);
+  const double begin = std::max(least, level - 2 * beyond.mouth / (2 * kPi));
+  PartShapeSum sum(surface, distance, begin);
+  for (const Index v : limb)
+    if (distance[v] >= begin) sum.add_vertex(v);
+  const PartShape both = sum.shape(distance[top]);
+  if (!(both.area > beyond.area)) return std::nullopt;
+  return Vector3((both.area * both.centre - beyond.area * beyond.centre) / (both.area - beyond.area));
+}
+
 // A limb may end in something squat and much wider than itself, as a pole does in a disc, a box or a ball.
 // Then it ends in the middle of that, on the side opposite to where it comes from: what lies farthest is some
 // place of a rim, or a corner. Squat is what is no deeper than a ball, for its surface; a flat cap is none,
@@ -56,9 +73,6 @@ inline std::optional<LimbHead> find_head(const SurfaceSnapshot& surface, const B
   LimbHead head;
   head.part = walk.beyond(tip.vertex, *neck);
   if (walk.euler_characteristic(head.part) != 1) return std::nullopt;
-  const std::vector<Index> round = walk.ring(head.part);
-  Vector3 root = Vector3::Zero();
-  for (const Index v : round) root += surface.position[v] / static_cast<double>(round.size());
   PartShapeSum sum(surface, distance, *neck);
   for (const Index v : head.part) sum.add_vertex(v);
   const PartShape shape = sum.shape(distance[tip.vertex]);
@@ -67,8 +81,10 @@ inline std::optional<LimbHead> find_head(const SurfaceSnapshot& surface, const B
     return std::nullopt;
   head.neck = shape.mouth / (2 * kPi);
   head.middle = shape.centre;
-  const double way = (head.middle - root).norm();
-  head.along = way > 0 ? Vector3((head.middle - root) / way) : Vector3::Zero();
+  const std::optional<Vector3> root = middle_below(surface, distance, tip.vertex, part, *neck, shape);
+  if (!root) return std::nullopt;
+  const double way = (head.middle - *root).norm();
+  head.along = way > 0 ? Vector3((head.middle - *root) / way) : Vector3::Zero();
   head.end = head.middle;
   if (const auto hit = way > 0 ? solid.first_hit(head.middle, head.along) : std::nullopt) {
     const double clear = hit->distance - 2 * kLeastClearance * tip.measures.half_width;
