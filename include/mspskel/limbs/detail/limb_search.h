@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -17,7 +16,6 @@
 #include "mspskel/limbs/detail/part_level.h"
 #include "mspskel/limbs/detail/part_shape.h"
 #include "mspskel/limbs/detail/part_walk.h"
-#include "mspskel/limbs/detail/slender_parts.h"
 #include "mspskel/limbs/limb_tips.h"
 #include "mspskel/solid/detail/inward_chord.h"
 
@@ -64,7 +62,7 @@ class LimbTipSearch {
           if (finish(low))
             meet_limb(high.notes, distance_[saddle]);
           else if (are_lobes(high, low, saddle))
-            high.notes.forks.push_back({distance_[saddle], low.top, are_bumps(high, low, saddle)});
+            high.notes.forks.push_back({distance_[saddle], low.top, are_knobs(high, low, saddle)});
           high.notes.sum.add(low.notes.sum);
           high.notes.vertices += low.notes.vertices;
           high.notes.euler += low.notes.euler;
@@ -88,7 +86,7 @@ class LimbTipSearch {
   struct Fork {
     double distance;
     Index other;  // the top of the lower one
-    bool bumps;
+    bool knobs;   // or corners, which are flatter
   };
   struct Notes {
     LevelSum sum;
@@ -158,12 +156,13 @@ class LimbTipSearch {
            about_equal(std::sqrt(std::max(a.area, 0.0)), std::sqrt(std::max(b.area, 0.0)));
   }
 
-  bool are_bumps(const Part& high, const Part& low, Index saddle) const {
-    constexpr double kAnyCarrier = std::numeric_limits<double>::infinity();
-    const auto is_one = [&](const Part& part) {
-      return is_bump(part.notes.sum.at(distance_[saddle], distance_[part.top]), kAnyCarrier, options_);
+  // As the middle of the shape sees them, corners and pieces of rims bulge about half as much as a flat disc.
+  bool are_knobs(const Part& high, const Part& low, Index saddle) const {
+    constexpr double kKnob = 0.85;
+    const auto is_knob = [&](const Part& part) {
+      return part.notes.sum.at(distance_[saddle], distance_[part.top]).bulge() >= kKnob;
     };
-    return is_one(high) && is_one(low);
+    return is_knob(high) && is_knob(low);
   }
 
   // What the vertex adds to the Euler characteristic of the vertices beyond it: itself, the edges to them,
@@ -212,10 +211,10 @@ class LimbTipSearch {
     }
     LimbTip& tip = found->tip;
     const Fork* const fork = last_fork(tip, level.distance, notes.forks);
-    if (fork != nullptr && fork->bumps && add_bumps(*fork, tip.vertex)) return true;
-    const bool ends_so = notes.own == 0 || !notes.is_limb_alone;
+    if (fork != nullptr && fork->knobs && add_lobes(*fork, tip.vertex)) return true;
+    const bool ends_alone = notes.own == 0 || !notes.is_limb_alone;
     if (const std::optional<LimbHead> head =
-            ends_so ? find_head(surface_, solid_, distance_, walk_, tip, found->part) : std::nullopt) {
+            ends_alone ? find_head(surface_, solid_, distance_, walk_, tip, found->part) : std::nullopt) {
       if (carries_on(*head)) return false;
       tip.target = head->end;
       tip.cap = tip.head = head->part;
@@ -296,27 +295,26 @@ class LimbTipSearch {
     });
   }
 
-  // The deepest fork of a limb's end, if it has one.
+  // The deepest fork of a limb's end, if it has one that is no dent.
   const Fork* last_fork(const LimbTip& tip, double level, const std::vector<Fork>& forks) const {
-    constexpr double kDeepest = 2;  // half widths
-    const double top = distance_[tip.vertex], width = tip.measures.half_width, end = kEnd * width;
+    constexpr double kDeepest = 2, kDent = 0.25;  // half widths
+    const double width = tip.measures.half_width;
     const Fork* last = nullptr;
-    for (const Fork& fork : forks)
-      if (fork.distance > level + end && top - fork.distance > end && top - fork.distance <= kDeepest * width)
-        last = &fork;
+    for (const Fork& fork : forks) {
+      const double depth = distance_[tip.vertex] - fork.distance;
+      const double least = (fork.knobs ? kDent : kEnd) * width;
+      if (fork.distance > level + kEnd * width && depth > least && depth <= kDeepest * width) last = &fork;
+    }
     return last;
   }
 
-  // Both lobes of a limb's end as ears; neither, if one of them is none.
-  bool add_bumps(const Fork& fork, Index top) {
+  // Both lobes of a limb's end as limbs; neither, if one of them is none.
+  bool add_lobes(const Fork& fork, Index top) {
     std::array<std::optional<FoundLimb>, 2> lobes{measure(top, fork.distance, 0.0),
                                                   measure(fork.other, fork.distance, 0.0)};
     for (const auto& lobe : lobes)
       if (!lobe) return false;
-    for (auto& lobe : lobes) {
-      lobe->tip.kind = TipKind::kEar;
-      limbs_.push_back(std::move(*lobe));
-    }
+    for (auto& lobe : lobes) limbs_.push_back(std::move(*lobe));
     return true;
   }
 
