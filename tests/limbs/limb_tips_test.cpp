@@ -339,6 +339,26 @@ TEST_CASE("Tubes that fork in one plane are no plate, however wide the fork is")
   }
 }
 
+TEST_CASE("A plate that forks has a limb for each of its lobes, also where these are most of it") {
+  for (const int length : {5, 7, 10}) {
+    VoxelSolid fish;
+    fish.box({0, 0, 0}, {7, 8, 14});
+    fish.box({3, 2, 14}, {4, 6, 16});  // the tail and its lobes
+    fish.box({3, 0, 16}, {4, 3, 16 + length});
+    fish.box({3, 5, 16}, {4, 8, 16 + length});
+    fish.box({3, 0, 16}, {4, 8, 18});
+    const Solid solid(to_mesh(boundary(fish, 2)));
+    std::size_t upper = 0, lower = 0;
+    for (const LimbTip& tip : tips_of(solid)) {
+      const Vector3 x = solid.model(tip.position);
+      if (x.z() > 14 + length) ++(x.y() > 4 ? upper : lower);
+    }
+    CAPTURE(length);
+    CHECK(upper == 1);
+    CHECK(lower == 1);
+  }
+}
+
 TEST_CASE("A stub near the end of a pipe is measured without the pipe, which would be slender again") {
   const Solid solid(united({{{-4, 0, 0}, {4, 0, 0}, 1.0}, {{-2.8, 0, 0}, {-2.8, 0, 2.6}, 0.6}}, 0.15));
   int stubs = 0;

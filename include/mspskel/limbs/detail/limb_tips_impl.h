@@ -269,7 +269,8 @@ inline void add_flat_ends(const SurfaceSnapshot& surface, const BoundingVolumeHi
 // A plate is one limb or none. What was told by a corner of it goes, be that the corner alone or most of the
 // plate, as it reaches from afar, and so does what is less deep than the plate is thick. Where it stands out
 // it takes the place of a longer limb, too, of which it is the end. Other limbs that end in it stay, and
-// stand for it, as any do where no crease shows how deep it is.
+// stand for it, as any do where no crease shows how deep it is; so do several that are no corners, as the
+// lobes of a forked tail.
 inline void judge_as_one(Plate plate, std::vector<FoundLimb>& limbs) {
   constexpr double kSlack = 1.2, kMost = 0.6, kAll = 1.25;  // of the plate's depth
   const std::vector<Index>& part = plate.limb.part;
@@ -280,11 +281,19 @@ inline void judge_as_one(Plate plate, std::vector<FoundLimb>& limbs) {
   };
   const auto is_corner = [&](const FoundLimb& limb) {
     const LimbMeasures& m = limb.tip.measures;
-    const bool most = m.depth > kMost * whole.depth && (plate.stands_out || m.depth < kAll * whole.depth);
-    return most || m.depth < thickness ||
+    return m.depth < thickness ||
            is_slab_corner(m.depth, m.depth_over_mouth, m.slenderness, thickness, kSlack);
   };
-  const auto goes = [&](const FoundLimb& limb) { return ends_in_plate(limb) && is_corner(limb); };
+  const bool forks = std::count_if(limbs.begin(), limbs.end(), [&](const FoundLimb& limb) {
+                       return ends_in_plate(limb) && !is_corner(limb);
+                     }) > 1;
+  const auto is_most = [&](const FoundLimb& limb) {
+    const double depth = limb.tip.measures.depth;
+    return depth > kMost * whole.depth && (plate.stands_out || depth < kAll * whole.depth);
+  };
+  const auto goes = [&](const FoundLimb& limb) {
+    return ends_in_plate(limb) && (is_corner(limb) || (!forks && is_most(limb)));
+  };
   if (plate.from_crease) limbs.erase(std::remove_if(limbs.begin(), limbs.end(), goes), limbs.end());
   if (!plate.stands_out || std::any_of(limbs.begin(), limbs.end(), ends_in_plate)) return;
   plate.limb.tip.plate = part;
