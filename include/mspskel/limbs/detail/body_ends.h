@@ -10,7 +10,8 @@
 #include <unordered_set>
 #include <vector>
 
-#include "mspskel/limbs/detail/limb_search.h"
+#include "mspskel/limbs/detail/limb_measurement.h"
+#include "mspskel/limbs/detail/part_walk.h"
 #include "mspskel/mesh/component_areas.h"
 
 namespace mspskel {
@@ -121,18 +122,7 @@ class BodyEnds {
   // A part that is open at one place is a disc with handles: its Euler characteristic is 1 less 2 for each.
   Index handles_of(const std::vector<Index>& part) const {
     const std::unordered_set<Index> within(part.begin(), part.end());
-    Index twice_edges = 0, thrice_faces = 0;
-    for (const Index v : part) {
-      const Index first = surface_.vertex_halfedge[v];
-      Index h = first;
-      do {
-        const bool next = within.count(surface_.target(h)) > 0;
-        twice_edges += next;
-        thrice_faces += next && within.count(surface_.apex(h)) > 0;
-        h = surface_.next_outgoing(h);
-      } while (h != first);
-    }
-    const Index euler = static_cast<Index>(part.size()) - twice_edges / 2 + thrice_faces / 3;
+    const Index euler = euler_characteristic(surface_, part, [&](Index v) { return within.count(v) > 0; });
     return std::max<Index>(0, (1 - euler) / 2);
   }
 

@@ -76,9 +76,9 @@ inline void end_before_fork(const SurfaceSnapshot& surface, const std::vector<do
     all.add_vertex(v);
     if (distance[v] >= fork) lobes.add_vertex(v);
   }
-  const PartShape a = all.shape(top), b = lobes.shape(top);
-  if (!(a.area > b.area)) return;
-  tip.target = (a.area * a.centre - b.area * b.centre) / (a.area - b.area);
+  const std::optional<Vector3> middle = middle_between(all.shape(top), lobes.shape(top));
+  if (!middle) return;
+  tip.target = *middle;
   tip.cap = tip.head = std::move(part);
 }
 

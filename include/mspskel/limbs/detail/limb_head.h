@@ -55,9 +55,7 @@ inline std::optional<Vector3> middle_below(const SurfaceSnapshot& surface,
   PartShapeSum sum(surface, distance, begin);
   for (const Index v : limb)
     if (distance[v] >= begin) sum.add_vertex(v);
-  const PartShape both = sum.shape(distance[top]);
-  if (!(both.area > beyond.area)) return std::nullopt;
-  return Vector3((both.area * both.centre - beyond.area * beyond.centre) / (both.area - beyond.area));
+  return middle_between(sum.shape(distance[top]), beyond);
 }
 
 // A limb may end in something squat and much wider than itself, as a pole does in a disc, a box or a ball.
@@ -72,7 +70,8 @@ inline std::optional<LimbHead> find_head(const SurfaceSnapshot& surface, const B
   if (!neck) return std::nullopt;
   LimbHead head;
   head.part = walk.beyond(tip.vertex, *neck);
-  if (walk.euler_characteristic(head.part) != 1) return std::nullopt;
+  if (euler_characteristic(surface, head.part, [&](Index v) { return walk.holds(v); }) != 1)
+    return std::nullopt;
   PartShapeSum sum(surface, distance, *neck);
   for (const Index v : head.part) sum.add_vertex(v);
   const PartShape shape = sum.shape(distance[tip.vertex]);

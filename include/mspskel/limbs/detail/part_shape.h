@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "mspskel/mesh/surface_snapshot.h"
@@ -18,6 +19,13 @@ struct PartShape {
   double span = 0;        // the area that the contour goes round, as the plane that sees most of it does
   Vector3 centre = Vector3::Zero();  // the mean of its places
 };
+
+// The middle of the surface between two levels, of what lies beyond the lower and beyond the higher one;
+// nothing where there is none.
+inline std::optional<Vector3> middle_between(const PartShape& low, const PartShape& high) {
+  if (!(low.area > high.area)) return std::nullopt;
+  return Vector3((low.area * low.centre - high.area * high.centre) / (low.area - high.area));
+}
 
 class PartShapeSum {
  public:

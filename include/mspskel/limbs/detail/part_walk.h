@@ -8,6 +8,24 @@
 namespace mspskel {
 namespace detail {
 
+// The Euler characteristic of some vertices with the edges and triangles between them, 1 for a disc. `holds`
+// tells whether a vertex is one of them. O(part).
+template <class Holds>
+Index euler_characteristic(const SurfaceSnapshot& surface, const std::vector<Index>& part, Holds holds) {
+  Index twice_edges = 0, thrice_faces = 0;
+  for (const Index v : part) {
+    const Index first = surface.vertex_halfedge[v];
+    Index h = first;
+    do {
+      const bool next = holds(surface.target(h));
+      twice_edges += next;
+      thrice_faces += next && holds(surface.apex(h));
+      h = surface.next_outgoing(h);
+    } while (h != first);
+  }
+  return static_cast<Index>(part.size()) - twice_edges / 2 + thrice_faces / 3;
+}
+
 // Walks on the vertices of one surface, by one distance. Cost of each: O(the vertices that it comes by).
 class PartWalk {
  public:
@@ -26,22 +44,6 @@ class PartWalk {
         part.push_back(w);
       });
     return part;
-  }
-
-  // The Euler characteristic of a part that has just been walked: 1 for a disc.
-  Index euler_characteristic(const std::vector<Index>& part) const {
-    Index count = static_cast<Index>(part.size());
-    for (const Index v : part) {
-      const Index first = surface_.vertex_halfedge[v];
-      Index h = first;
-      do {
-        const Index a = surface_.target(h), b = surface_.apex(h);
-        if (v < a && holds(a)) --count;
-        if (v < a && v < b && holds(a) && holds(b)) ++count;
-        h = surface_.next_outgoing(h);
-      } while (h != first);
-    }
-    return count;
   }
 
   // Those next to a part that has just been walked.

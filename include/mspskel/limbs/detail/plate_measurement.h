@@ -11,7 +11,7 @@
 
 #include "mspskel/limbs/detail/convex_hull.h"
 #include "mspskel/limbs/detail/growing_parts.h"
-#include "mspskel/limbs/detail/limb_search.h"
+#include "mspskel/limbs/detail/limb_measurement.h"
 
 namespace mspskel {
 namespace detail {

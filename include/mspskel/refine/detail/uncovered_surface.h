@@ -9,6 +9,7 @@
 #include "mspskel/base/progress.h"
 #include "mspskel/base/value_at_rank.h"
 #include "mspskel/limbs/detail/end_target.h"
+#include "mspskel/limbs/detail/part_walk.h"
 #include "mspskel/limbs/detail/slender_parts.h"
 #include "mspskel/limbs/limb_tips.h"
 #include "mspskel/solid/detail/ball_chain.h"
@@ -32,7 +33,7 @@ class UncoveredSurface {
       : surface_(surface),
         distance_(surface.position.size(), 0.0),
         carrier_(distance_),
-        walked_(surface.position.size(), 0) {
+        walk_(surface, distance_) {
     const BallTree tree(std::move(balls));
     parallel_for(
         surface_.vertex_count(), "arcs", execution, [] { return 0; },
@@ -43,6 +44,8 @@ class UncoveredSurface {
           carrier_[v] = nearest.radius;
         });
   }
+
+  UncoveredSurface(const UncoveredSurface&) = delete;  // its walks go by its own distances
 
   // How far a vertex is beyond all balls, at most 0 where done with.
   double distance(Index v) const { return distance_[v]; }
@@ -72,17 +75,9 @@ class UncoveredSurface {
     tip.measures.half_width = radius;
     const double cap = std::min(0.5 * level.depth, kTipCap * radius), end = std::min(cap, kEnd * radius);
     PartShapeSum sum(surface_, distance_, distance_[top] - end);
-    tip.cap.assign(1, top);
-    walked_[top] = ++walk_;
-    for (std::size_t i = 0; i < tip.cap.size(); ++i) {
-      const Index v = tip.cap[i];
+    tip.cap = walk_.beyond(top, distance_[top] - cap);
+    for (const Index v : tip.cap)
       if (distance_[top] - distance_[v] <= end) sum.add_vertex(v);
-      for_each_neighbour(surface_, v, [&](Index w) {
-        if (walked_[w] == walk_ || distance_[top] - distance_[w] > cap) return;
-        walked_[w] = walk_;
-        tip.cap.push_back(w);
-      });
-    }
     tip.target = sum.shape(distance_[top]).centre;
     keep_target_well_inside(tip, solid);
     return tip;
@@ -90,20 +85,9 @@ class UncoveredSurface {
 
   // How thick the solid is beside the part beyond a level: the median chord inward from the ring round it.
   double thickness_beside(Index top, const PartLevel& level, const BoundingVolumeHierarchy& solid) {
-    const Index within = ++walk_, beside = ++walk_;
-    std::vector<Index> part{top};
-    walked_[top] = within;
     std::vector<double> chords;
-    for (std::size_t i = 0; i < part.size(); ++i)
-      for_each_neighbour(surface_, part[i], [&](Index w) {
-        if (walked_[w] == within || walked_[w] == beside) return;
-        const bool beyond = distance_[w] >= distance_[top] - level.depth;
-        walked_[w] = beyond ? within : beside;
-        if (beyond)
-          part.push_back(w);
-        else
-          chords.push_back(chord(w, solid));
-      });
+    for (const Index v : walk_.ring(walk_.beyond(top, distance_[top] - level.depth)))
+      chords.push_back(chord(v, solid));
     return value_at_rank(std::move(chords), 0.5);
   }
 
@@ -135,8 +119,7 @@ class UncoveredSurface {
   const SurfaceSnapshot& surface_;
   std::vector<double> distance_, carrier_;  // per vertex
   std::vector<double> chord_;               // inward, per vertex; negative where it was not asked for
-  std::vector<Index> walked_;               // the last walk that came by
-  Index walk_ = 0;
+  PartWalk walk_;
 };
 
 }  // namespace detail
