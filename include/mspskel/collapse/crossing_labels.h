@@ -6,7 +6,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "mspskel/collapse/detail/flat_regions.h"
 #include "mspskel/collapse/detail/loop_filling.h"
+#include "mspskel/collapse/detail/region_tiles.h"
 #include "mspskel/collapse/volume_cocycles.h"
 #include "mspskel/mesh/detail/box_index.h"
 
@@ -17,8 +19,8 @@ namespace mspskel {
 // solid the labels add up to the values of the cocycles on its homology class; on a single segment they mean
 // nothing.
 //
-// Holds the regions' outlines, in hierarchies of boxes; the cocycles may go. const and safe to share between
-// threads.
+// Holds the regions in tiles and the loops' surfaces, in hierarchies of boxes; the cocycles may go. const and
+// safe to share between threads.
 class CrossingLabels {
  public:
   // Rank 0: every label is zero.
@@ -36,8 +38,7 @@ class CrossingLabels {
   bool has_loops() const { return !filling_[0].triangles.empty(); }
 
   // Label of the way from a to b. `clear` is set to false where rounding leaves a doubt, else left alone.
-  // Cost: O(log rank) where no region and no loop's surface is near; a region whose plane is met costs its
-  // outlines, and the points of those whose boxes the place is in.
+  // Cost: O(log rank) where no region and no loop's surface is near, and what is near.
   CocycleLabel operator()(const Vector3& a, const Vector3& b, bool& clear) const {
     return label(a, b, filling_[0], clear);
   }
@@ -49,7 +50,8 @@ class CrossingLabels {
   CocycleLabel along(const std::vector<Vector3>& points) const;
 
   // Whether the closed polyline through the points has a label other than zero, or rounding hides it: no
-  // disc fills it. Cost: that of one label where no region is near.
+  // disc fills it. Cost: O(log rank) where neither a loop nor the border of a region is near, else that of
+  // the labels along it.
   bool goes_round(const std::vector<Vector3>& ring) const;
 
   // Labels by other surfaces that fill the loops; equal round every closed polyline, which is the check on
@@ -59,19 +61,19 @@ class CrossingLabels {
   }
 
  private:
-  struct Outline {
-    std::vector<Eigen::Vector2d> point;  // in the plane
-    Eigen::AlignedBox2d box;
-  };
   struct Row {
     CocycleLabel image;  // what a crossing counts as
     bool is_loop;
-    Plane plane;
-    std::vector<Outline> outlines;  // of a region
+    Plane plane;  // of a region
+    detail::PlaneFrame frame;
   };
   struct Part {
     Index component = kNone;
     bool is_loop = false;
+  };
+  struct Tile {
+    Index row;
+    detail::RegionTile region;
   };
   struct LoopTriangle {
     Index row;
@@ -84,16 +86,24 @@ class CrossingLabels {
 
   void index_regions(const VolumeCocycles& cocycles);
   void index_loops(const VolumeCocycles& cocycles, int attempt);
-  // Whether a loop may pass through a closed polyline in the box, in which a disc fills it.
-  bool may_link(const Vector3& low, const Vector3& high) const;
+  void index_borders(const VolumeCocycles& cocycles);
+  // The rows whose loop, or border of a region, may pass through a closed polyline in the box, in which a
+  // disc fills it; ascending.
+  std::vector<Index> rows_near(const Vector3& low, const Vector3& high) const;
   CocycleLabel label(const Vector3& a, const Vector3& b, const Filling& filling, bool& clear) const;
-  static int region_crossing(const Row& row, const Vector3& a, const Vector3& b);
+  // The sum over the segments in the box that for_each_segment(visit) gives visit(a, b), of the rows that are
+  // wanted.
+  template <class ForEachSegment, class Wanted>
+  CocycleLabel sum(const Vector3& low, const Vector3& high, const Filling& filling,
+                   const ForEachSegment& for_each_segment, const Wanted& wanted, bool& clear) const;
+  int region_crossing(const Tile& tile, const Vector3& a, const Vector3& b) const;
 
-  std::vector<Row> rows_;    // per cocycle
-  std::vector<Part> parts_;  // per entry of the labels
+  std::vector<Row> rows_;     // per cocycle
+  std::vector<Part> parts_;   // per entry of the labels
+  std::vector<Tile> tiles_;   // of regions
+  detail::BoxIndex regions_;  // of tiles
   std::array<Filling, 2> filling_;
-  detail::BoxIndex regions_;     // of rows
-  detail::BoxIndex loop_edges_;  // of rows, by the edges of their loops
+  detail::BoxIndex border_edges_;  // of rows, by the edges of their loops and of their regions' contours
 };
 
 }  // namespace mspskel

@@ -5,34 +5,39 @@
 #include <utility>
 
 #include "mspskel/base/linkage.h"
-#include "mspskel/collapse/detail/flat_regions.h"
 
 namespace mspskel {
+
 MSPSKEL_INLINE CrossingLabels::CrossingLabels(const VolumeCocycles& cocycles, int attempt) {
   parts_.resize(static_cast<std::size_t>(cocycles.rank));
   for (const VolumeCocycle& cocycle : cocycles.cocycle) {
-    Row row{cocycles.image_of(static_cast<Index>(rows_.size())), cocycle.contours.empty(), cocycle.plane, {}};
+    Row row{cocycles.image_of(static_cast<Index>(rows_.size())), cocycle.contours.empty(), cocycle.plane,
+            detail::PlaneFrame(cocycle.plane.normal)};
     for (const auto& entry : row.image.entries()) parts_[entry.index] = {cocycle.component, row.is_loop};
-    const detail::PlaneFrame frame(cocycle.plane.normal);
-    for (const Contour& contour : cocycle.contours) {
-      Outline& outline = row.outlines.emplace_back();
-      for (const Vector3& p : contour.point) {
-        outline.point.push_back(frame(p));
-        outline.box.extend(outline.point.back());
-      }
-    }
     rows_.push_back(std::move(row));
   }
   index_regions(cocycles);
   index_loops(cocycles, attempt);
+  index_borders(cocycles);
 }
 
 MSPSKEL_INLINE void CrossingLabels::index_regions(const VolumeCocycles& cocycles) {
   for (Index i = 0; i < static_cast<Index>(rows_.size()); ++i) {
-    if (rows_[i].is_loop || rows_[i].image.is_zero()) continue;
-    Eigen::AlignedBox3d box;
-    for (const Vector3& p : cocycles.cocycle[i].contours.front().point) box.extend(p);
-    regions_.add(i, box.min(), box.max());
+    const Row& row = rows_[i];
+    if (row.is_loop || row.image.is_zero()) continue;
+    std::vector<detail::Polygon2> outlines;
+    for (const Contour& contour : cocycles.cocycle[i].contours) {
+      detail::Polygon2& outline = outlines.emplace_back();
+      for (const Vector3& p : contour.point) outline.push_back(row.frame(p));
+    }
+    detail::tile_region(outlines, [&](detail::RegionTile tile) {
+      using Corner = Eigen::AlignedBox2d::CornerType;
+      Eigen::AlignedBox3d box;
+      for (const Corner at : {Corner::BottomLeft, Corner::BottomRight, Corner::TopLeft, Corner::TopRight})
+        box.extend(row.frame.point(tile.box().corner(at)) + row.plane.offset * row.plane.normal);
+      regions_.add(static_cast<Index>(tiles_.size()), box.min(), box.max());
+      tiles_.push_back({i, std::move(tile)});
+    });
   }
   regions_.build();
 }
@@ -41,11 +46,7 @@ MSPSKEL_INLINE void CrossingLabels::index_loops(const VolumeCocycles& cocycles, 
   constexpr double kGolden = 0.6180339887498949;  // its multiples fall between each other
   for (Index i = 0; i < static_cast<Index>(rows_.size()); ++i) {
     const std::vector<Vector3>& loop = cocycles.cocycle[i].loop;
-    if (rows_[i].image.is_zero() || loop.empty()) continue;
-    for (std::size_t k = 0; k < loop.size(); ++k) {
-      const Vector3 &p = loop[k], &q = loop[k + 1 == loop.size() ? 0 : k + 1];
-      loop_edges_.add(i, p.cwiseMin(q), p.cwiseMax(q));
-    }
+    if (rows_[i].image.is_zero()) continue;
     for (int which = 0; which < 2; ++which) {
       const double turn = kGolden * (2 * attempt + which);
       const auto start =
@@ -58,37 +59,67 @@ MSPSKEL_INLINE void CrossingLabels::index_loops(const VolumeCocycles& cocycles, 
       });
     }
   }
-  loop_edges_.build();
   for (Filling& filling : filling_) filling.boxes.build();
 }
 
+MSPSKEL_INLINE void CrossingLabels::index_borders(const VolumeCocycles& cocycles) {
+  for (Index i = 0; i < static_cast<Index>(rows_.size()); ++i) {
+    if (rows_[i].image.is_zero()) continue;
+    const auto add = [&](const std::vector<Vector3>& border) {
+      for (std::size_t k = 0, last = border.size() - 1; k < border.size(); last = k++)
+        border_edges_.add(i, border[last].cwiseMin(border[k]), border[last].cwiseMax(border[k]));
+    };
+    add(cocycles.cocycle[i].loop);
+    for (const Contour& contour : cocycles.cocycle[i].contours) add(contour.point);
+  }
+  border_edges_.build();
+}
+
 // +1 from the plane's negative to its positive side.
-MSPSKEL_INLINE int CrossingLabels::region_crossing(const Row& row, const Vector3& a, const Vector3& b) {
+MSPSKEL_INLINE int CrossingLabels::region_crossing(const Tile& tile, const Vector3& a,
+                                                   const Vector3& b) const {
+  const Row& row = rows_[tile.row];
   const double from = row.plane.signed_distance(a), to = row.plane.signed_distance(b);
   if ((from >= 0) == (to >= 0)) return 0;
-  const Eigen::Vector2d x = detail::PlaneFrame(row.plane.normal)(a + from / (from - to) * (b - a));
-  bool inside = false;
-  for (const Outline& outline : row.outlines)
-    if (outline.box.contains(x)) inside = inside != detail::inside_polygon(outline.point, x);
-  return !inside ? 0 : to >= 0 ? 1 : -1;
+  const Eigen::Vector2d x = row.frame(a + from / (from - to) * (b - a));
+  if (!tile.region.holds(x) || !tile.region.inside(x)) return 0;
+  return to >= 0 ? 1 : -1;
+}
+
+template <class ForEachSegment, class Wanted>
+CocycleLabel CrossingLabels::sum(const Vector3& low, const Vector3& high, const Filling& filling,
+                                 const ForEachSegment& for_each_segment, const Wanted& wanted,
+                                 bool& clear) const {
+  CocycleLabel result;
+  const auto add = [&](Index row, int crossings) {
+    if (crossings != 0) result += rows_[row].image * crossings;
+  };
+  regions_.in_box(low, high, [&](Index i) {
+    const Tile& tile = tiles_[i];
+    if (!wanted(tile.row)) return;
+    int crossings = 0;
+    for_each_segment([&](const Vector3& a, const Vector3& b) { crossings += region_crossing(tile, a, b); });
+    add(tile.row, crossings);
+  });
+  filling.boxes.in_box(low, high, [&](Index i) {
+    const LoopTriangle& triangle = filling.triangles[i];
+    if (!wanted(triangle.row)) return;
+    int crossings = 0;
+    for_each_segment([&](const Vector3& a, const Vector3& b) {
+      const std::optional<int> crossing = detail::crossing_of(triangle.corner, a, b);
+      clear = clear && crossing;
+      crossings += crossing.value_or(0);
+    });
+    add(triangle.row, crossings);
+  });
+  return result;
 }
 
 MSPSKEL_INLINE CocycleLabel CrossingLabels::label(const Vector3& a, const Vector3& b, const Filling& filling,
                                                   bool& clear) const {
-  CocycleLabel result;
-  const Vector3 low = a.cwiseMin(b), high = a.cwiseMax(b);
-  regions_.in_box(low, high, [&](Index i) {
-    const int value = region_crossing(rows_[i], a, b);
-    if (value != 0) result += rows_[i].image * value;
-  });
-  filling.boxes.in_box(low, high, [&](Index i) {
-    const std::optional<int> value = detail::crossing_of(filling.triangles[i].corner, a, b);
-    if (!value)
-      clear = false;
-    else if (*value != 0)
-      result += rows_[filling.triangles[i].row].image * *value;
-  });
-  return result;
+  return sum(
+      a.cwiseMin(b), a.cwiseMax(b), filling, [&](const auto& visit) { visit(a, b); },
+      [](Index) { return true; }, clear);
 }
 
 MSPSKEL_INLINE CocycleLabel CrossingLabels::along(const std::vector<Vector3>& points) const {
@@ -98,35 +129,31 @@ MSPSKEL_INLINE CocycleLabel CrossingLabels::along(const std::vector<Vector3>& po
   return label;
 }
 
-MSPSKEL_INLINE bool CrossingLabels::may_link(const Vector3& low, const Vector3& high) const {
-  bool any = false;
-  loop_edges_.in_box(low, high, [&](Index) { any = true; });
-  return any;
+MSPSKEL_INLINE std::vector<Index> CrossingLabels::rows_near(const Vector3& low, const Vector3& high) const {
+  std::vector<Index> rows;
+  border_edges_.in_box(low, high, [&](Index row) {
+    if (rows.empty() || rows.back() != row) rows.push_back(row);
+  });
+  std::sort(rows.begin(), rows.end());
+  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+  return rows;
 }
 
 MSPSKEL_INLINE bool CrossingLabels::goes_round(const std::vector<Vector3>& ring) const {
   if (rows_.empty() || ring.empty()) return false;
-  const auto next = [&](std::size_t i) -> const Vector3& { return ring[i + 1 == ring.size() ? 0 : i + 1]; };
   Vector3 low = ring.front(), high = ring.front();
   for (const Vector3& p : ring) {
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
-  CocycleLabel label;
-  regions_.in_box(low, high, [&](Index row) {
-    const Plane& plane = rows_[row].plane;
-    const bool positive = plane.signed_distance(ring.front()) >= 0;
-    // Most planes near a ring miss it.
-    if (std::all_of(ring.begin() + 1, ring.end(),
-                    [&](const Vector3& p) { return (plane.signed_distance(p) >= 0) == positive; }))
-      return;
-    int sum = 0;
-    for (std::size_t i = 0; i < ring.size(); ++i) sum += region_crossing(rows_[row], ring[i], next(i));
-    if (sum != 0) label += rows_[row].image * sum;
-  });
-  if (!label.is_zero() || !may_link(low, high)) return !label.is_zero();
+  const std::vector<Index> near = rows_near(low, high);
+  if (near.empty()) return false;
+  const auto for_each_segment = [&](const auto& visit) {
+    for (std::size_t i = 0, last = ring.size() - 1; i < ring.size(); last = i++) visit(ring[last], ring[i]);
+  };
+  const auto is_near = [&](Index row) { return std::binary_search(near.begin(), near.end(), row); };
   bool clear = true;
-  for (std::size_t i = 0; i < ring.size(); ++i) label += (*this)(ring[i], next(i), clear);
+  const CocycleLabel label = sum(low, high, filling_[0], for_each_segment, is_near, clear);
   return !clear || !label.is_zero();
 }
 

@@ -88,6 +88,8 @@ struct PlaneFrame {
 
   explicit PlaneFrame(const Vector3& normal) : u(normal.unitOrthogonal()), v(normal.cross(u)) {}
   Eigen::Vector2d operator()(const Vector3& x) const { return {u.dot(x), v.dot(x)}; }
+  // Of the plane through the origin.
+  Vector3 point(const Eigen::Vector2d& x) const { return x.x() * u + x.y() * v; }
 };
 
 // Whether the point (in the plane) lies inside the closed polygon: parity of the crossings of a ray.

@@ -43,16 +43,29 @@ inline CycleCrossings cross_cycles_along(const CrossingLabels& crossings, const 
                                          Index edges_inside, const std::vector<Index>& component,
                                          const ProgressCallback& progress) {
   CycleCrossings result;
-  LabelledForest forest(static_cast<Index>(graph.position.size())), other = forest;
-  LabelRank rank;
-  CocycleLabel loop, check;
+  std::vector<CocycleLabel> label(graph.edges.size());
+  std::vector<std::size_t> order(graph.edges.size());
   for (std::size_t e = 0; e < graph.edges.size(); ++e) {
     poll(progress, e, graph.edges.size());
     const auto [a, b] = graph.edges[e];
-    const Vector3 &p = graph.position[a], &q = graph.position[b];
-    const CocycleLabel label = crossings(p, q, result.clear);
-    other.join(a, b, crossings.by_other_surfaces(p, q, result.clear), check);
-    if (forest.join(a, b, label, loop)) continue;
+    label[e] = crossings(graph.position[a], graph.position[b], result.clear);
+    order[e] = e;
+  }
+  // A forest of edges without crossings leaves short labels for the cycles.
+  const auto fewer = [&](std::size_t e, std::size_t f) {
+    return label[e].entries().size() < label[f].entries().size();
+  };
+  std::stable_sort(order.begin(), order.begin() + edges_inside, fewer);
+  std::stable_sort(order.begin() + edges_inside, order.end(), fewer);
+  LabelledForest forest(static_cast<Index>(graph.position.size())), other = forest;
+  LabelRank rank;
+  CocycleLabel loop, check;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    poll(progress, i, order.size());
+    const std::size_t e = order[i];
+    const auto [a, b] = graph.edges[e];
+    other.join(a, b, crossings.by_other_surfaces(graph.position[a], graph.position[b], result.clear), check);
+    if (forest.join(a, b, label[e], loop)) continue;
     ++result.cycles;
     CocycleLabel own;
     for (const auto& [row, value] : loop.entries())
@@ -61,7 +74,7 @@ inline CycleCrossings cross_cycles_along(const CrossingLabels& crossings, const 
     for (const auto& entry : doubt.entries())
       if (crossings.component(entry.index) == component[a]) result.clear = false;
     rank.insert(own);
-    if (static_cast<Index>(e) < edges_inside) result.dependent = result.cycles - rank.rank();
+    if (static_cast<Index>(i) < edges_inside) result.dependent = result.cycles - rank.rank();
   }
   result.rank = rank.rank();
   return result;
