@@ -48,6 +48,7 @@ void check_writable(const fs::path& path) {
   if (path == "-") return;
   std::error_code ignored;
   if (fs::is_directory(path, ignored)) throw WriteError(path.string() + " is a folder");
+  refuse_write_protected(path.string());
   check_folder(path, fs::absolute(path, ignored).parent_path());
 }
 

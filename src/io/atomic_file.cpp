@@ -110,6 +110,11 @@ void check_path(const std::string& path) {
   if (path != "-" && fs::is_directory(path, ignored)) fail(path, "it is a directory");
 }
 
+void check_target(const std::string& path) {
+  check_path(path);
+  if (!is_stream(path)) refuse_write_protected(path);
+}
+
 void write_stream(const std::string& path, std::string_view bytes, const ProgressCallback& progress) {
   const NoPipeSignal no_signal;
   if (path == "-") {
@@ -185,8 +190,19 @@ std::filesystem::path file_behind_links(const std::string& path) {
   return target;
 }
 
+void refuse_write_protected(const std::string& path) {
+  std::error_code none;
+  const fs::file_status status = fs::status(path, none);
+  if (!fs::is_regular_file(status)) return;
+  // A superuser may write to all files, and has protected some all the same.
+  constexpr fs::perms kWrite = fs::perms::owner_write | fs::perms::group_write | fs::perms::others_write;
+  if ((status.permissions() & kWrite) == fs::perms::none ||
+      (::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) != 0 && errno != ENOENT))
+    fail(path, "the file is write-protected; allow writing to it or give another name");
+}
+
 void write_file_atomically(const std::string& path, std::string_view bytes) {
-  check_path(path);
+  check_target(path);
   if (is_stream(path)) {
     write_stream(path, bytes, {});
     return;
@@ -216,7 +232,7 @@ void OutputFiles::make_folder(const std::string& path) {
 
 void OutputFiles::add(const std::string& path, std::string bytes) {
   report_progress(progress_, kStage, 0.0);
-  check_path(path);
+  check_target(path);
   if (is_stream(path)) {
     streams_.push_back({path, std::move(bytes)});
     return;

@@ -83,6 +83,19 @@ class Kept(ProgramTest):
         self.assertTrue(os.path.islink(self.folder / "sub" / "link.skel"))
         self.assertTrue((self.folder / "target.skel").is_file())
 
+    def test_write_protected_files(self):
+        # The mesh is none: that the file is protected shows before the work.
+        self.write("no.off", "no mesh")
+        for name in ("kept.skel", "kept.off"):
+            self.write(name, "older")
+            os.chmod(self.folder / name, 0o444)
+        os.symlink("kept.skel", self.folder / "link.skel")
+        for arguments in (["kept.skel"], ["a.skel", "kept.skel"], ["link.skel"], ["a.skel", "--report", "kept.skel"]):
+            self.assertIn("write-protected", self.fail_with(WRITE, "no.off", *arguments))
+        self.assertIn("write-protected", self.fail_with(WRITE, "sample", "tee", "kept.off"))
+        for name in ("kept.skel", "kept.off"):
+            self.assertEqual((self.folder / name).read_text(), "older")
+
     def test_devices_may_be_named_twice(self):
         self.succeed(self.sample(), "a.skel", "--report", "/dev/null")
         os.symlink("/dev/null", self.folder / "n.skel")

@@ -122,6 +122,19 @@ TEST_CASE("files are replaced as a whole") {
   CHECK_THROWS_AS(write_file_atomically(folder.path("round"), "x"), WriteError);
 }
 
+TEST_CASE("a write-protected file is not replaced, and nothing is left beside it") {
+  namespace fs = std::filesystem;
+  const TemporaryFolder folder;
+  const std::string path = folder.write("a.txt", "before");
+  fs::permissions(path, fs::perms::owner_read | fs::perms::group_read);
+  CHECK_THROWS_WITH(write_file_atomically(path, "after"),
+                    Catch::Contains("a.txt: the file is write-protected"));
+  OutputFiles files;
+  CHECK_THROWS_AS(files.add(path, "after"), WriteError);
+  CHECK(folder.read("a.txt") == "before");
+  CHECK(folder.count() == 1);
+}
+
 TEST_CASE("a file that is replaced keeps its mode bits") {
   namespace fs = std::filesystem;
   const TemporaryFolder folder;
