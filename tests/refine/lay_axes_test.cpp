@@ -4,7 +4,9 @@
 #include <catch2/catch.hpp>
 
 #include "mspskel/extract_skeleton.h"
+#include "mspskel/mesh/default_mesh.h"
 #include "mspskel/mesh/detail/solid_moments.h"
+#include "mspskel/samples/blocks.h"
 #include "support/arc_graphs.h"
 #include "support/solids.h"
 
@@ -34,6 +36,33 @@ DefaultMesh beside(DefaultMesh a, const DefaultMesh& b) {
     a.add_face(face);
   }
   return a;
+}
+
+// The tip of a limb at the vertex nearest to x, model units.
+LimbTip tip_at(const Solid& solid, const Vector3& x) {
+  const SurfaceSnapshot& s = solid.surface;
+  LimbTip tip;
+  tip.vertex = 0;
+  for (Index v = 0; v < s.vertex_count(); ++v)
+    if ((s.frame.to_model(s.position[v]) - x).norm() < (s.frame.to_model(s.position[tip.vertex]) - x).norm())
+      tip.vertex = v;
+  return tip;
+}
+
+Solid of_boxes(const std::vector<Block>& boxes) {
+  return Solid(to_mesh(make_boxes(boxes, 3000, 0, 1)));
+}
+
+// An angle, a channel, a channel with lips, a T: of walls 0.2 thick along the z axis.
+std::vector<std::vector<Block>> profiles(double length) {
+  const auto wall = [&](double x0, double x1, double y0, double y1) {
+    return Block{{x0, y0, 0}, {x1, y1, length}};
+  };
+  return {{wall(0, 1.2, 0, 0.2), wall(0, 0.2, 0, 0.9)},
+          {wall(0, 1, 0, 0.2), wall(0, 0.2, 0, 0.8), wall(0.8, 1, 0, 0.8)},
+          {wall(0, 1, 0, 0.2), wall(0, 0.2, 0, 0.9), wall(0.8, 1, 0, 0.9), wall(0, 0.4, 0.7, 0.9),
+           wall(0.6, 1, 0.7, 0.9)},
+          {wall(0, 1, 0.7, 0.9), wall(0.4, 0.6, 0, 0.9)}};
 }
 
 }  // namespace
@@ -76,9 +105,7 @@ TEST_CASE("Every block gets an axis of its own") {
 TEST_CASE("What has limbs, a handle, or air in its middle keeps its arcs") {
   const Solid block(prism(4, 5, 9));
   ArcGraph graph = crooked(block);
-  LimbTip limb;
-  limb.vertex = 0;
-  CHECK(lay_axes(graph, block.surface, block.hierarchy, {limb}) == 0);
+  CHECK(lay_axes(graph, block.surface, block.hierarchy, {tip_at(block, {0, 0, 2.5})}) == 0);
   CHECK(graph.arcs.front().alive);
   const Solid ring(torus(3, 1, 40, 20));
   graph = crooked(ring);
@@ -95,6 +122,44 @@ TEST_CASE("What is longer than wide has its axis along its length, however flat 
     const Vector3 axis = detail::solid_moments(make_snapshot(ellipsoid))[0].axis();
     CHECK(std::abs(axis.x()) > 0.999);
   }
+}
+
+TEST_CASE("A profile has its axis along its length, in a wall where its centroid lies in air") {
+  for (const double length : {3.0, 6.0})
+    for (const std::vector<Block>& profile : profiles(length)) {
+      const Solid solid = of_boxes(profile);
+      // What reaches farthest are corners of its ends.
+      for (const std::vector<LimbTip>& tips :
+           {std::vector<LimbTip>{}, {tip_at(solid, {0, 0, 0}), tip_at(solid, {1, 1, length})}}) {
+        ArcGraph graph = crooked(solid);
+        REQUIRE(lay_axes(graph, solid.surface, solid.hierarchy, tips) == 1);
+        const Arc& axis = graph.arcs.back();
+        for (std::size_t i = 1; i < axis.points.size(); ++i)
+          CHECK_FALSE(solid.hierarchy.segment_crosses(axis.points[i - 1], axis.points[i]));
+        const Vector3 along = solid.surface.frame.scale * (axis.points.back() - axis.points.front());
+        CHECK(std::hypot(along.x(), along.y()) < 0.01);
+        CHECK(std::abs(along.z()) > length - 0.2);
+        CHECK(solid.hierarchy.distance(axis.points[1]) * solid.surface.frame.scale > 0.09);
+      }
+    }
+}
+
+TEST_CASE("A bench is no prism") {
+  const Solid bench = of_boxes({{{0, 0, 0}, {6, 2, 0.3}},
+                                {{0, 0, -1}, {0.3, 0.3, 0}},
+                                {{5.7, 0, -1}, {6, 0.3, 0}},
+                                {{0, 1.7, -1}, {0.3, 2, 0}},
+                                {{5.7, 1.7, -1}, {6, 2, 0}}});
+  const std::vector<LimbTip> feet{tip_at(bench, {0, 0, -1}), tip_at(bench, {6, 0, -1}),
+                                  tip_at(bench, {0, 2, -1}), tip_at(bench, {6, 2, -1})};
+  ArcGraph graph = crooked(bench);
+  CHECK(lay_axes(graph, bench.surface, bench.hierarchy, feet) == 0);
+  // Two legs as wide as the bench leave one tip an end, and weigh there.
+  const Solid staple =
+      of_boxes({{{0, 0, 0}, {6, 1, 0.3}}, {{0, 0, -1}, {0.5, 1, 0}}, {{5.5, 0, -1}, {6, 1, 0}}});
+  graph = crooked(staple);
+  CHECK(lay_axes(graph, staple.surface, staple.hierarchy,
+                 {tip_at(staple, {0, 0, -1}), tip_at(staple, {6, 1, -1})}) == 0);
 }
 
 TEST_CASE("A cube has its axis across its sides, however it lies, and a plate along its longer one") {

@@ -29,17 +29,23 @@ struct SolidMoments {
   Vector3 axis() const {
     const auto solver = principal_axes();
     const Vector3 moment = solver.eigenvalues();
-    const bool longer = moment[2] > kLonger * kLonger * moment[1];
-    return solver.eigenvectors().col(longer || moment[2] * moment[0] > moment[1] * moment[1] ? 2 : 0);
+    return solver.eigenvectors().col(is_longer(moment) || moment[2] * moment[0] > moment[1] * moment[1] ? 2
+                                                                                                        : 0);
   }
   // Whether the axis is longer or shorter than the other two are, so that it tells how the solid lies.
   bool axis_stands_apart() const {
     const Vector3 moment = principal_axes().eigenvalues();
-    return moment[2] > kLonger * kLonger * moment[1] || moment[1] > kLonger * kLonger * moment[0];
+    return is_longer(moment) || moment[1] > kLonger * kLonger * moment[0];
   }
+  // Whether the axis is that along the length.
+  bool is_longer_than_wide() const { return is_longer(principal_axes().eigenvalues()); }
+  // Of a solid whose sections across its axis are all alike.
+  double length_as_prism() const { return std::sqrt(12 * principal_axes().eigenvalues()[2]); }
 
  private:
   static constexpr double kLonger = 1.1;
+
+  static bool is_longer(const Vector3& ascending) { return ascending[2] > kLonger * kLonger * ascending[1]; }
 
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal_axes() const {  // ascending
     const Vector3 c = centroid();

@@ -42,14 +42,46 @@ inline std::optional<std::vector<Vector3>> axis_points(const SolidMoments& momen
   return points;
 }
 
+// Whether a component is a prism and has no tips but one at either end.
+inline bool is_bare_prism(const SurfaceSnapshot& surface, const SolidMoments& moments,
+                          const BoundingVolumeHierarchy& solid, const std::vector<Index>& tips) {
+  constexpr double kAtEnd = 0.1;  // of its length
+  const auto stretch = prism_stretch(moments, solid);
+  if (!stretch) return false;
+  const Vector3 along = (*stretch)[1] - (*stretch)[0];
+  std::array<int, 2> at_end{0, 0};
+  for (const Index v : tips) {
+    const double share = (surface.position[v] - (*stretch)[0]).dot(along) / along.squaredNorm();
+    if (share > kAtEnd && share < 1 - kAtEnd) return false;
+    ++at_end[share > 0.5 ? 1 : 0];
+  }
+  return at_end[0] <= 1 && at_end[1] <= 1;
+}
+
+// Per component whether a limb or a flat end tells more of it than its axis does.
+inline std::vector<bool> components_with_arcs_of_limbs(const SurfaceSnapshot& surface,
+                                                       const BoundingVolumeHierarchy& solid,
+                                                       const std::vector<LimbTip>& tips,
+                                                       const std::vector<Index>& handles,
+                                                       const std::vector<SolidMoments>& moments) {
+  std::vector<bool> limbed = components_with_limbs(surface, tips);
+  std::vector<std::vector<Index>> tips_of(limbed.size());
+  for (const LimbTip& tip : tips) tips_of[surface.component[tip.vertex]].push_back(tip.vertex);
+  for (std::size_t c = 0; c < limbed.size(); ++c)
+    if (limbed[c] && handles[c] == 0 && is_bare_prism(surface, moments[c], solid, tips_of[c]))
+      limbed[c] = false;
+  return limbed;
+}
+
 }  // namespace detail
 
 MSPSKEL_INLINE Index lay_axes(ArcGraph& graph, const SurfaceSnapshot& surface,
                               const BoundingVolumeHierarchy& solid, const std::vector<LimbTip>& tips) {
-  const std::vector<bool> limbed = components_with_limbs(surface, tips);
-  if (std::find(limbed.begin(), limbed.end(), false) == limbed.end()) return 0;
   const std::vector<Index> handles = handles_of_components(surface);
   const std::vector<detail::SolidMoments> moments = detail::solid_moments(surface);
+  const std::vector<bool> limbed =
+      detail::components_with_arcs_of_limbs(surface, solid, tips, handles, moments);
+  if (std::find(limbed.begin(), limbed.end(), false) == limbed.end()) return 0;
   const std::vector<Index> component = detail::components_of_pieces(graph, surface);
   const std::vector<double> extent = component_extents(surface);
   std::vector<std::optional<std::vector<Vector3>>> points(limbed.size());

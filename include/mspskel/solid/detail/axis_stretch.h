@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
+#include <vector>
 
 #include "mspskel/base/even_directions.h"
 #include "mspskel/mesh/bounding_volume_hierarchy.h"
@@ -110,15 +112,73 @@ inline bool is_vessel(const SolidMoments& moments, const BoundingVolumeHierarchy
   });
 }
 
+// Half way through the wall that is nearest to a point in a hollow, or through which the point lies.
+inline std::optional<Vector3> middle_of_wall(const Vector3& x, const BoundingVolumeHierarchy& solid) {
+  constexpr double kSkip = 1e-7;  // off the surface
+  const ClosestPoint nearest = solid.closest(x);
+  if (!(nearest.distance > 0)) return std::nullopt;
+  const Vector3 into = ((solid.inside(x) ? 1.0 : -1.0) * (x - nearest.point)).normalized();
+  const Vector3 start = nearest.point + kSkip * into;
+  const auto hit = solid.first_hit(start, into);
+  if (!hit) return std::nullopt;
+  return start + 0.5 * hit->distance * into;
+}
+
+// Whether sections across a line are alike: at several places of it as much lies in most directions.
+inline bool is_prism_along(const Vector3& from, const Vector3& to, const BoundingVolumeHierarchy& solid) {
+  constexpr int kRays = 24;
+  constexpr double kAlike = 0.1, kMost = 0.8;
+  const Vector3 along = (to - from).normalized(), u = along.unitOrthogonal(), w = along.cross(u);
+  const auto distances = [&](double share) {
+    std::vector<double> found;
+    for (const Vector2& d : even_directions(kRays)) {
+      const auto hit = solid.first_hit(from + share * (to - from), d.x() * u + d.y() * w);
+      found.push_back(hit ? hit->distance : std::numeric_limits<double>::infinity());
+    }
+    return found;
+  };
+  const std::vector<double> middle = distances(0.5);
+  for (const double share : {0.1, 0.25, 0.75, 0.9}) {
+    const std::vector<double> there = distances(share);
+    int alike = 0;
+    for (std::size_t k = 0; k < middle.size(); ++k)
+      alike += there[k] == middle[k] || std::abs(there[k] - middle[k]) <= kAlike * middle[k];
+    if (alike < kMost * static_cast<double>(middle.size())) return false;
+  }
+  return true;
+}
+
+// Of a prism, which is longer than wide and has sections that are alike across its length, the line from end
+// to end: through the centroid or, of an open profile as an angle or a channel, in the middle of the wall
+// that is nearest to it. Nothing of other solids. Cost: a query of the nearest surface and some hundred rays.
+inline std::optional<std::array<Vector3, 2>> prism_stretch(const SolidMoments& moments,
+                                                           const BoundingVolumeHierarchy& solid) {
+  constexpr double kEven = 0.04;  // legs at the ends of a bench make it longer by its moments
+  if (!moments.has_volume() || !moments.is_longer_than_wide()) return std::nullopt;
+  const Vector3 axis = moments.axis(), centroid = moments.centroid();
+  const std::optional<Vector3> middle =
+      is_well_inside(centroid, solid) ? centroid : middle_of_wall(centroid, solid);
+  if (!middle || !solid.inside(*middle)) return std::nullopt;
+  const auto back = solid.first_hit(*middle, -axis), ahead = solid.first_hit(*middle, axis);
+  if (!back || !ahead) return std::nullopt;
+  const double length = back->distance + ahead->distance, expected = moments.length_as_prism();
+  if (std::abs(length - expected) > kEven * expected) return std::nullopt;
+  const Vector3 from = *middle - back->distance * axis, to = *middle + ahead->distance * axis;
+  const Vector3 beside = centroid - *middle - (centroid - *middle).dot(axis) * axis;
+  if (!is_prism_along(from + beside, to + beside, solid)) return std::nullopt;
+  return std::array<Vector3, 2>{from, to};
+}
+
 // The axis of a solid as far as it runs inside. Of a block, whose centroid lies inside, it is the given axis,
-// there and back from the centroid. Of a vessel it is the line from the opening through the centroid, and of
-// that the longest stretch, which is the stem or lies in the floor; its moments may well be equal, and a
-// handle turns them.
+// there and back from the centroid, and of an open profile that in a wall. Of a vessel it is the line from
+// the opening through the centroid, and of that the longest stretch, which is the stem or lies in the floor;
+// its moments may well be equal, and a handle turns them.
 inline std::optional<std::array<Vector3, 2>> axis_stretch(const SolidMoments& moments, const Vector3& axis,
                                                           const BoundingVolumeHierarchy& solid) {
   if (!moments.has_volume()) return std::nullopt;
   const Vector3 centre = moments.centroid();
   if (!is_well_inside(centre, solid)) {
+    if (const auto along = prism_stretch(moments, solid)) return along;
     const auto opening = opening_direction(centre, solid);
     return opening ? longest_stretch(centre, *opening, solid) : std::nullopt;
   }
