@@ -408,6 +408,23 @@ TEST_CASE("what encloses nothing is refused with a remedy") {
   REQUIRE_THROWS_AS(mend_soup(soup), MeshError);
 }
 
+TEST_CASE("what is too small for the points that mending makes is refused, not written with points in one") {
+  // Two cubes that touch in an edge are drawn apart by a part of it.
+  const PolygonSoup cubes = together({box({0, 0, 0}, {1, 1, 1}), box({1, 1, 0}, {2, 2, 1})});
+  const auto scaled = [&](double scale) {
+    PolygonSoup soup = cubes;
+    for (Vector3& p : soup.points) p *= scale;
+    return soup;
+  };
+  const std::size_t points = mend_soup(cubes).soup.points.size();
+  for (const double scale : {1e-290, 1e-100, 1e200})
+    CHECK(mend_soup(scaled(scale)).soup.points.size() == points);
+  CHECK_THROWS_WITH(mend_soup(scaled(5e-324)), Contains("scale it up"));
+  // Nothing has to be made of one cube.
+  PolygonSoup cube = box({0, 0, 0}, {5e-324, 5e-324, 5e-324});
+  CHECK(mend_soup(cube).soup.points == cube.points);
+}
+
 TEST_CASE("a surface of one side is cut, not refused") {
   PolygonSoup soup;  // a strip with half a turn
   constexpr Index kLong = 30;
