@@ -40,7 +40,7 @@ class CrossingLabels {
   // Label of the way from a to b. `clear` is set to false where rounding leaves a doubt, else left alone.
   // Cost: O(log rank) where no region and no loop's surface is near, and what is near.
   CocycleLabel operator()(const Vector3& a, const Vector3& b, bool& clear) const {
-    return label(a, b, filling_[0], clear);
+    return label(a, b, filling_[0], nullptr, clear);
   }
   CocycleLabel operator()(const Vector3& a, const Vector3& b) const {
     bool clear = true;
@@ -57,7 +57,7 @@ class CrossingLabels {
   // Labels by other surfaces that fill the loops; equal round every closed polyline, which is the check on
   // rounding. The same for regions.
   CocycleLabel by_other_surfaces(const Vector3& a, const Vector3& b, bool& clear) const {
-    return label(a, b, filling_[1], clear);
+    return label(a, b, filling_[1], nullptr, clear);
   }
 
  private:
@@ -90,12 +90,9 @@ class CrossingLabels {
   // The rows whose loop, or border of a region, may pass through a closed polyline in the box, in which a
   // disc fills it; ascending.
   std::vector<Index> rows_near(const Vector3& low, const Vector3& high) const;
-  CocycleLabel label(const Vector3& a, const Vector3& b, const Filling& filling, bool& clear) const;
-  // The sum over the segments in the box that for_each_segment(visit) gives visit(a, b), of the rows that are
-  // wanted.
-  template <class ForEachSegment, class Wanted>
-  CocycleLabel sum(const Vector3& low, const Vector3& high, const Filling& filling,
-                   const ForEachSegment& for_each_segment, const Wanted& wanted, bool& clear) const;
+  // `rows`, ascending: of these alone.
+  CocycleLabel label(const Vector3& a, const Vector3& b, const Filling& filling,
+                     const std::vector<Index>* rows, bool& clear) const;
   int region_crossing(const Tile& tile, const Vector3& a, const Vector3& b) const;
 
   std::vector<Row> rows_;     // per cocycle

@@ -86,40 +86,29 @@ MSPSKEL_INLINE int CrossingLabels::region_crossing(const Tile& tile, const Vecto
   return to >= 0 ? 1 : -1;
 }
 
-template <class ForEachSegment, class Wanted>
-CocycleLabel CrossingLabels::sum(const Vector3& low, const Vector3& high, const Filling& filling,
-                                 const ForEachSegment& for_each_segment, const Wanted& wanted,
-                                 bool& clear) const {
-  CocycleLabel result;
-  const auto add = [&](Index row, int crossings) {
-    if (crossings != 0) result += rows_[row].image * crossings;
+MSPSKEL_INLINE CocycleLabel CrossingLabels::label(const Vector3& a, const Vector3& b, const Filling& filling,
+                                                  const std::vector<Index>* rows, bool& clear) const {
+  const auto is_wanted = [&](Index row) {
+    return rows == nullptr || std::binary_search(rows->begin(), rows->end(), row);
   };
+  CocycleLabel result;
+  const Vector3 low = a.cwiseMin(b), high = a.cwiseMax(b);
   regions_.in_box(low, high, [&](Index i) {
     const Tile& tile = tiles_[i];
-    if (!wanted(tile.row)) return;
-    int crossings = 0;
-    for_each_segment([&](const Vector3& a, const Vector3& b) { crossings += region_crossing(tile, a, b); });
-    add(tile.row, crossings);
+    if (!is_wanted(tile.row)) return;
+    const int value = region_crossing(tile, a, b);
+    if (value != 0) result += rows_[tile.row].image * value;
   });
   filling.boxes.in_box(low, high, [&](Index i) {
     const LoopTriangle& triangle = filling.triangles[i];
-    if (!wanted(triangle.row)) return;
-    int crossings = 0;
-    for_each_segment([&](const Vector3& a, const Vector3& b) {
-      const std::optional<int> crossing = detail::crossing_of(triangle.corner, a, b);
-      clear = clear && crossing;
-      crossings += crossing.value_or(0);
-    });
-    add(triangle.row, crossings);
+    if (!is_wanted(triangle.row)) return;
+    const std::optional<int> value = detail::crossing_of(triangle.corner, a, b);
+    if (!value)
+      clear = false;
+    else if (*value != 0)
+      result += rows_[triangle.row].image * *value;
   });
   return result;
-}
-
-MSPSKEL_INLINE CocycleLabel CrossingLabels::label(const Vector3& a, const Vector3& b, const Filling& filling,
-                                                  bool& clear) const {
-  return sum(
-      a.cwiseMin(b), a.cwiseMax(b), filling, [&](const auto& visit) { visit(a, b); },
-      [](Index) { return true; }, clear);
 }
 
 MSPSKEL_INLINE CocycleLabel CrossingLabels::along(const std::vector<Vector3>& points) const {
@@ -148,13 +137,11 @@ MSPSKEL_INLINE bool CrossingLabels::goes_round(const std::vector<Vector3>& ring)
   }
   const std::vector<Index> near = rows_near(low, high);
   if (near.empty()) return false;
-  const auto for_each_segment = [&](const auto& visit) {
-    for (std::size_t i = 0, last = ring.size() - 1; i < ring.size(); last = i++) visit(ring[last], ring[i]);
-  };
-  const auto is_near = [&](Index row) { return std::binary_search(near.begin(), near.end(), row); };
+  CocycleLabel sum;
   bool clear = true;
-  const CocycleLabel label = sum(low, high, filling_[0], for_each_segment, is_near, clear);
-  return !clear || !label.is_zero();
+  for (std::size_t i = 0, last = ring.size() - 1; i < ring.size(); last = i++)
+    sum += label(ring[last], ring[i], filling_[0], &near, clear);
+  return !clear || !sum.is_zero();
 }
 
 }  // namespace mspskel
