@@ -14,9 +14,11 @@ namespace mspskel {
 // without a limb gets one arc through the centroid of its solid, along the principal axis that differs most
 // from the other two. Where all three are about equal, as in a cube, or that one is the thickness of a plate,
 // less than kLeastPieceLength of its extent, it gets one along the direction in which it is most like a box,
-// across its sides. Where the centroid lies in a hollow, as in a glass or a goblet, the arc is what the line
-// from the middle of the opening through the centroid has of the solid, in one piece: the stem, or the
-// thickness of the floor. The arc ends half the middle ball's radius before the surface. Components where no
+// across its sides. A prism that is longer than wide gets its axis though a corner of either end was told as
+// a limb; of an open profile, whose centroid lies in air, it is the line in the middle of the nearest wall.
+// Where else the centroid lies in a hollow, as in a glass or a goblet, the arc is what the line from the
+// middle of the opening through the centroid has of the solid, in one piece: the stem, or the thickness of the
+// floor. The arc ends half the middle ball's radius before the surface. Components where no
 // such line is found, or one shorter than a millionth of the extent, stay as they are. `graph` and `tips` are
 // of the vertices of `surface`; tips of depth 0 are no limbs. Returns the number of arcs laid.
 // Cost: O(faces), a few queries a component, some thousand where it is hollow.
