@@ -262,14 +262,15 @@ MendedSoup mend_soup(const PolygonSoup& soup, const MendOptions& options, const 
   PolygonSoup near_one = soup;
   detail::scale_points(near_one, -exponent);
   MendedSoup mended = Mending(near_one, options, progress).run();
-  const std::vector<Vector3> exact = mended.soup.points;
+  // Next to the least number that there is, points that were made, a little off others, are those again; next
+  // to the greatest, what was made outside of all is none.
+  if (!detail::scales_exactly(mended.soup, exponent))
+    throw MendError(
+        exponent < 0 ? "the mesh is too small to be mended, at the least numbers that there are: scale it up"
+                     : "the mesh is too large to be mended, at the greatest numbers that there are: scale "
+                       "it down",
+        mended.counts);
   detail::scale_points(mended.soup, exponent);
-  // Next to the least number that there is, points that were made, a little off others, are those again.
-  PolygonSoup back{mended.soup.points, {0}, {}, {}};
-  detail::scale_points(back, -exponent);
-  if (back.points != exact)
-    throw MendError("the mesh is too small to be mended, at the least numbers that there are: scale it up",
-                    mended.counts);
   for (Opening& opening : mended.openings) {
     for (double& x : opening.centre) x = std::scalbn(x, exponent);
     opening.radius = std::scalbn(opening.radius, exponent);

@@ -21,6 +21,14 @@ inline int exponent_of_unit(const PolygonSoup& soup) {
   return std::abs(exponent) > kMost ? exponent : 0;
 }
 
+// Whether scale_points can be undone.
+inline bool scales_exactly(const PolygonSoup& soup, int exponent) {
+  return std::all_of(soup.points.begin(), soup.points.end(), [&](const Vector3& p) {
+    return std::all_of(p.begin(), p.end(),
+                       [&](double x) { return std::scalbn(std::scalbn(x, exponent), -exponent) == x; });
+  });
+}
+
 inline void scale_points(PolygonSoup& soup, int exponent) {
   for (Vector3& p : soup.points)
     for (double& x : p) x = std::scalbn(x, exponent);

@@ -52,6 +52,12 @@ class LabelledForest {
   std::vector<Index> path_;
 };
 
+// Edges that are joined in this order make a forest of edges without crossings, as far as there is one, which
+// leaves short labels for the cycles.
+inline bool has_fewer_crossings(const CocycleLabel& a, const CocycleLabel& b) {
+  return a.entries().size() < b.entries().size();
+}
+
 struct ComplexTopology {
   Index components = 0;  // b0
   Index cycles =

@@ -18,9 +18,9 @@ namespace mspskel {
 // a limb; of an open profile, whose centroid lies in air, it is the line in the middle of the nearest wall.
 // Where else the centroid lies in a hollow, as in a glass or a goblet, the arc is what the line from the
 // middle of the opening through the centroid has of the solid, in one piece: the stem, or the thickness of the
-// floor. The arc ends half the middle ball's radius before the surface. Components where no
-// such line is found, or one shorter than a millionth of the extent, stay as they are. `graph` and `tips` are
-// of the vertices of `surface`; tips of depth 0 are no limbs. Returns the number of arcs laid.
+// floor. The arc ends half the middle ball's radius before the surface. Components where no such line is
+// found, or one shorter than a millionth of the extent, stay as they are. `graph` and `tips` are of the
+// vertices of `surface`; tips of depth 0 are no limbs. Returns the number of arcs laid.
 // Cost: O(faces), a few queries a component, some thousand where it is hollow.
 Index lay_axes(ArcGraph& graph, const SurfaceSnapshot& surface, const BoundingVolumeHierarchy& solid,
                const std::vector<LimbTip>& tips);

@@ -12,10 +12,8 @@ MSPSKEL_INLINE CycleRank cycle_rank(const ArcGraph& graph, const CrossingLabels&
   std::vector<std::pair<CocycleLabel, Index>> labelled;
   for (Index a = 0; a < graph.arc_count(); ++a)
     if (graph.arcs[a].alive) labelled.push_back({crossings.along(graph.arcs[a].points), a});
-  // A forest of arcs without crossings leaves short labels for the cycles.
-  std::stable_sort(labelled.begin(), labelled.end(), [](const auto& a, const auto& b) {
-    return a.first.entries().size() < b.first.entries().size();
-  });
+  std::stable_sort(labelled.begin(), labelled.end(),
+                   [](const auto& a, const auto& b) { return has_fewer_crossings(a.first, b.first); });
   CycleRank result;
   LabelledForest forest(graph.hub_count());
   LabelRank rank;

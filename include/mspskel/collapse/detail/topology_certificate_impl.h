@@ -51,10 +51,7 @@ inline CycleCrossings cross_cycles_along(const CrossingLabels& crossings, const 
     label[e] = crossings(graph.position[a], graph.position[b], result.clear);
     order[e] = e;
   }
-  // A forest of edges without crossings leaves short labels for the cycles.
-  const auto fewer = [&](std::size_t e, std::size_t f) {
-    return label[e].entries().size() < label[f].entries().size();
-  };
+  const auto fewer = [&](std::size_t e, std::size_t f) { return has_fewer_crossings(label[e], label[f]); };
   std::stable_sort(order.begin(), order.begin() + edges_inside, fewer);
   std::stable_sort(order.begin() + edges_inside, order.end(), fewer);
   LabelledForest forest(static_cast<Index>(graph.position.size())), other = forest;

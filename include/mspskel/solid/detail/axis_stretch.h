@@ -37,6 +37,14 @@ inline std::optional<std::array<Vector3, 2>> longest_stretch(const Vector3& poin
   return longest;
 }
 
+// What a line has of the solid there and back from a point inside.
+inline std::optional<std::array<Vector3, 2>> stretch_through(const Vector3& point, const Vector3& direction,
+                                                             const BoundingVolumeHierarchy& solid) {
+  const auto back = solid.first_hit(point, -direction), ahead = solid.first_hit(point, direction);
+  if (!back || !ahead) return std::nullopt;
+  return std::array<Vector3, 2>{point - back->distance * direction, point + ahead->distance * direction};
+}
+
 struct FreeDirections {
   Vector3 sum = Vector3::Zero();
   int count = 0;
@@ -159,14 +167,14 @@ inline std::optional<std::array<Vector3, 2>> prism_stretch(const SolidMoments& m
   const std::optional<Vector3> middle =
       is_well_inside(centroid, solid) ? centroid : middle_of_wall(centroid, solid);
   if (!middle || !solid.inside(*middle)) return std::nullopt;
-  const auto back = solid.first_hit(*middle, -axis), ahead = solid.first_hit(*middle, axis);
-  if (!back || !ahead) return std::nullopt;
-  const double length = back->distance + ahead->distance, expected = moments.length_as_prism();
-  if (std::abs(length - expected) > kEven * expected) return std::nullopt;
-  const Vector3 from = *middle - back->distance * axis, to = *middle + ahead->distance * axis;
+  const auto stretch = stretch_through(*middle, axis, solid);
+  if (!stretch) return std::nullopt;
+  const auto [from, to] = *stretch;
+  const double expected = moments.length_as_prism();
+  if (std::abs((to - from).norm() - expected) > kEven * expected) return std::nullopt;
   const Vector3 beside = centroid - *middle - (centroid - *middle).dot(axis) * axis;
   if (!is_prism_along(from + beside, to + beside, solid)) return std::nullopt;
-  return std::array<Vector3, 2>{from, to};
+  return stretch;
 }
 
 // The axis of a solid as far as it runs inside. Of a block, whose centroid lies inside, it is the given axis,
@@ -182,9 +190,7 @@ inline std::optional<std::array<Vector3, 2>> axis_stretch(const SolidMoments& mo
     const auto opening = opening_direction(centre, solid);
     return opening ? longest_stretch(centre, *opening, solid) : std::nullopt;
   }
-  const auto back = solid.first_hit(centre, -axis), ahead = solid.first_hit(centre, axis);
-  if (!back || !ahead) return std::nullopt;
-  return std::array<Vector3, 2>{centre - back->distance * axis, centre + ahead->distance * axis};
+  return stretch_through(centre, axis, solid);
 }
 
 // The same along the principal axis that stands apart.
