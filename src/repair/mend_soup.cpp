@@ -262,19 +262,20 @@ MendedSoup mend_soup(const PolygonSoup& soup, const MendOptions& options, const 
   PolygonSoup near_one = soup;
   detail::scale_points(near_one, -exponent);
   MendedSoup mended = Mending(near_one, options, progress).run();
-  // Next to the least number that there is, points that were made, a little off others, are those again; next
-  // to the greatest, what was made outside of all is none.
-  if (!detail::scales_exactly(mended.soup, exponent))
-    throw MendError(
-        exponent < 0 ? "the mesh is too small to be mended, at the least numbers that there are: scale it up"
-                     : "the mesh is too large to be mended, at the greatest numbers that there are: scale "
-                       "it down",
-        mended.counts);
-  detail::scale_points(mended.soup, exponent);
+  bool survives = detail::survives_scaling(mended.soup, exponent);
   for (Opening& opening : mended.openings) {
     for (double& x : opening.centre) x = std::scalbn(x, exponent);
     opening.radius = std::scalbn(opening.radius, exponent);
+    survives = survives && opening.centre.allFinite() && std::isfinite(opening.radius);
   }
+  if (!survives) throw MendError(detail::refusal_to_scale(exponent, "mended"), mended.counts);
+  // Tiny coordinates beside huge ones lose digits on the way to a unit near one: points that stayed in their
+  // place get their own back.
+  const std::vector<Vector3> scaled = mended.soup.points;
+  detail::scale_points(mended.soup, exponent);
+  for (std::size_t p = 0; p < soup.points.size(); ++p)
+    if (const Index v = mended.vertex_of_point[p]; v != kNone && scaled[v] == near_one.points[p])
+      mended.soup.points[v] = soup.points[p];
   return mended;
 }
 

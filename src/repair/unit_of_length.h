@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <string>
 
 #include "mspskel/mesh/polygon_soup.h"
 
@@ -21,12 +22,23 @@ inline int exponent_of_unit(const PolygonSoup& soup) {
   return std::abs(exponent) > kMost ? exponent : 0;
 }
 
-// Whether scale_points can be undone.
-inline bool scales_exactly(const PolygonSoup& soup, int exponent) {
-  return std::all_of(soup.points.begin(), soup.points.end(), [&](const Vector3& p) {
-    return std::all_of(p.begin(), p.end(),
-                       [&](double x) { return std::scalbn(std::scalbn(x, exponent), -exponent) == x; });
+// Whether points of a model near one stay where they are when they are scaled. At the least numbers that there
+// are, places a little apart become the same; at the greatest, what lies outside of all becomes no number.
+inline bool survives_scaling(const PolygonSoup& near_one, int exponent) {
+  constexpr double kLeastLength = 1e-18;
+  return std::all_of(near_one.points.begin(), near_one.points.end(), [&](const Vector3& p) {
+    return std::all_of(p.begin(), p.end(), [&](double x) {
+      return std::abs(std::scalbn(std::scalbn(x, exponent), -exponent) - x) <= kLeastLength;
+    });
   });
+}
+
+// Why points do not survive scaling, and the remedy.
+inline std::string refusal_to_scale(int exponent, const std::string& verb) {
+  return exponent < 0 ? "the mesh is too small to be " + verb +
+                            ", at the least numbers that there are: scale it up"
+                      : "the mesh is too large to be " + verb +
+                            ", at the greatest numbers that there are: scale it down";
 }
 
 inline void scale_points(PolygonSoup& soup, int exponent) {

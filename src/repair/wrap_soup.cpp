@@ -188,6 +188,8 @@ WrappedSoup wrap_soup(const PolygonSoup& soup, const WrapOptions& options, const
   WrapOptions near_options = options;
   near_options.filled = std::scalbn(options.filled, -3 * exponent);
   WrappedSoup wrapped = wrap(near_one, near_options, execution);
+  if (!detail::survives_scaling(wrapped.soup, exponent))
+    throw MeshError(detail::refusal_to_scale(exponent, "wrapped"));
   detail::scale_points(wrapped.soup, exponent);
   wrapped.gap = std::scalbn(wrapped.gap, exponent);
   wrapped.cell = std::scalbn(wrapped.cell, exponent);

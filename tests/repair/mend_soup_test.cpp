@@ -425,6 +425,12 @@ TEST_CASE("what is too small for the points that mending makes is refused, not w
   CHECK(mend_soup(cube).soup.points == cube.points);
 }
 
+TEST_CASE("tiny coordinates beside the greatest come through mending with every digit") {
+  PolygonSoup cube = box({1e-17, 1e-17, 1e-17}, {1e300, 1e300, 1e300});
+  cube.points.front() = {1.25e-17, 3e-100, 7e-5};
+  CHECK(mend_soup(cube).soup.points == cube.points);
+}
+
 TEST_CASE("a surface of one side is cut, not refused") {
   PolygonSoup soup;  // a strip with half a turn
   constexpr Index kLong = 30;

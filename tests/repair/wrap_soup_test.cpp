@@ -13,6 +13,7 @@
 
 using namespace mspskel;
 using namespace mspskel::test;
+using Catch::Contains;
 
 namespace {
 
@@ -79,6 +80,18 @@ TEST_CASE("A wrap does not depend on the unit of length, however small or large"
   REQUIRE(wrapped.soup.corners == usual.soup.corners);
   for (std::size_t v = 0; v < usual.soup.points.size(); ++v)
     REQUIRE(wrapped.soup.points[v] == unit * usual.soup.points[v]);
+}
+
+TEST_CASE("A wrap whose points would be no numbers, or fall together, is refused") {
+  const PolygonSoup loose = loose_faces("capsule", 200, 0.2);
+  WrapOptions options;
+  options.gap = 0.1;
+  double reach = 0;
+  for (const Vector3& p : loose.points) reach = std::max(reach, p.cwiseAbs().maxCoeff());
+  CHECK_THROWS_WITH(wrap_soup(moved(loose, 1.79e308 / reach, Vector3::Zero()), options),
+                    Contains("scale it down"));
+  CHECK_THROWS_WITH(wrap_soup(moved(loose, 1e-321 / reach, Vector3::Zero()), options),
+                    Contains("scale it up"));
 }
 
 TEST_CASE("Solids farther apart than the gap stay apart, nearer ones become one") {

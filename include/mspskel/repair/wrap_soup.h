@@ -45,7 +45,7 @@ struct WrappedSoup {
 // distances from what it reached, and the surface where they equal its radius, cut in tetrahedra. The scale
 // is told by volumes on a grid of cells of 0.0125. Faces with corners that are not finite, or not there, are
 // left out.
-// Throws MeshError if no face has an extent, Cancelled. Cost: O(nodes + faces + surface / cell²); 40 bytes a
+// Throws MeshError if no face has an extent or the wrap has no numbers for its points, Cancelled. Cost: O(nodes + faces + surface / cell²); 40 bytes a
 // node.
 WrappedSoup wrap_soup(const PolygonSoup& soup, const WrapOptions& options = {},
                       const Execution& execution = {});
