@@ -4,6 +4,7 @@
 #include <array>
 
 #include "../mesh/edge_table.h"
+#include "flat_pieces.h"
 #include "pieces.h"
 
 namespace mspskel::detail {
@@ -11,8 +12,8 @@ namespace {
 
 struct Contact {
   Index piece, other;
-  double length;                   // of the edge; 0: in a point
-  std::array<Index, 2> halfedges;  // one of each piece, from the smaller end of the edge, or from the point
+  double length;                   // of the edge
+  std::array<Index, 2> halfedges;  // one of each piece, the same way along the edge
 
   // Of two pieces, the longest first.
   bool operator<(const Contact& o) const {
@@ -74,91 +75,110 @@ std::vector<Ends> beside_cancelled(const FaceSet& cancelled, const FaceSet& face
   return beside;
 }
 
-void add_contacts_of_cancelled(const FaceSet& cancelled, const FaceSet& faces, const std::vector<Index>& twin,
-                               std::size_t point_count, const std::vector<Index>& piece_of,
-                               std::vector<Contact>& contacts) {
-  const std::vector<Ends> beside = beside_cancelled(cancelled, faces, twin, point_count);
-  const auto first_along = [&](Index from, Index to) {
-    return std::lower_bound(beside.begin(), beside.end(), Ends{from, to, 0});
+// Of the flat pieces, from face `first_flat` on, with the solids along edges of their triangles.
+void add_contacts_of_flats(const std::vector<Ends>& beside, Index first_flat,
+                           const std::vector<Vector3>& points, const FaceSet& faces,
+                           const std::vector<Index>& piece_of, std::vector<Contact>& contacts) {
+  for (Index f = first_flat; f < faces.count(); f += 6)
+    for (const Index h : {3 * f, 3 * f + 3, 3 * f + 6}) {
+      const Index from = faces.origin(h), to = faces.target(h);
+      for (auto p = std::lower_bound(beside.begin(), beside.end(), Ends{from, to, 0});
+           p != beside.end() && p->from == from && p->to == to; ++p)
+        add_both(piece_of[p->halfedge / 3], piece_of[f], (points[from] - points[to]).norm(), p->halfedge, h,
+                 contacts);
+    }
+}
+
+// Whether the solid ends at half-edge h in an edge where its two faces are at an acute angle, and the face of
+// half-edge g, along the same edge, lies beyond it.
+bool goes_on(const std::vector<Vector3>& points, const FaceSet& faces, const std::vector<Index>& twin,
+             Index h, Index g) {
+  const Vector3& base = points[faces.origin(h)];
+  const Vector3 along = (points[faces.target(h)] - base).stableNormalized();
+  const auto away = [&](Index k) {  // from the edge, in the plane of the half-edge's face
+    const Vector3 way = points[faces.corners[FaceSet::prev(k)]] - base;
+    return (way - way.dot(along) * along).stableNormalized();
   };
-  for (Index c = 0; c < static_cast<Index>(cancelled.corners.size()); ++c) {
-    const Index v = cancelled.corners[c], a = cancelled.corners[FaceSet::next(c)],
-                b = cancelled.corners[FaceSet::prev(c)];
-    for (auto p = first_along(v, a); p != beside.end() && p->from == v && p->to == a; ++p)
-      for (auto q = first_along(v, b); q != beside.end() && q->from == v && q->to == b; ++q)
-        if (piece_of[p->halfedge / 3] != piece_of[q->halfedge / 3])
-          add_both(piece_of[p->halfedge / 3], piece_of[q->halfedge / 3], 0, p->halfedge, q->halfedge,
-                   contacts);
+  constexpr double kRight = 1e-9;
+  const Vector3 one = away(h), other = away(twin[h]);
+  const bool convex = area_vector(points, faces, h / 3).dot(other) < 0;
+  return convex && one.dot(other) > kRight && away(g).dot(one + other) < 0;
+}
+
+// Leaves out the faces from `first` on of pieces that did not join any.
+void drop_left(Index first, const std::vector<char>& joined, const std::vector<Index>& piece_of,
+               FaceSet& faces, std::vector<Index>& twin) {
+  std::vector<char> keep(faces.count(), 1);
+  std::vector<Index> place(faces.count());
+  Index kept = 0;
+  for (Index f = 0; f < faces.count(); ++f) {
+    keep[f] = f < first || joined[piece_of[f]];
+    place[f] = keep[f] ? kept++ : kNone;
   }
-}
-
-void bridge_edge(Index h, Index g, std::vector<Index>& twin) {
-  std::swap(twin[h], twin[g]);
-  twin[twin[h]] = h;
-  twin[twin[g]] = g;
-}
-
-// Puts two opposite triangles between two half-edges from one point.
-void bridge_point(Index h, Index g, FaceSet& faces, std::vector<Index>& twin) {
-  const Index v = faces.origin(h), a = faces.target(h), b = faces.target(g);
-  const auto front = static_cast<Index>(faces.corners.size()), back = front + 3;
-  faces.add(v, a, b, kNone);
-  faces.add(v, b, a, kNone);
-  twin.resize(faces.corners.size(), kNone);
-  const auto pair = [&](Index one, Index other) {
-    twin[one] = other;
-    twin[other] = one;
-  };
-  pair(front, twin[h]);
-  pair(back + 2, h);
-  pair(back, twin[g]);
-  pair(front + 2, g);
-  pair(front + 1, back + 1);
+  std::vector<Index> twins;
+  for (Index h = 0; h < static_cast<Index>(twin.size()); ++h)
+    if (keep[h / 3]) twins.push_back(twin[h] == kNone ? kNone : 3 * place[twin[h] / 3] + twin[h] % 3);
+  faces = kept_faces(faces, keep);
+  twin = std::move(twins);
 }
 
 }  // namespace
 
-Index join_touching_pieces(const std::vector<Vector3>& points, const FaceSet& cancelled, Index wall_count,
-                           double share, FaceSet& faces, std::vector<Index>& twin) {
-  const std::vector<Index> piece_of = pieces_of_faces(faces, twin);
+JoinedPieces join_touching_pieces(const FaceSet& cancelled, Index wall_count, double share,
+                                  std::vector<Vector3>& points, FaceSet& faces, std::vector<Index>& twin) {
+  const std::vector<Ends> beside = beside_cancelled(cancelled, faces, twin, points.size());
   std::vector<Contact> contacts;
-  add_contacts_in_edges(points, faces, twin, piece_of, contacts);
-  add_contacts_of_cancelled(cancelled, faces, twin, points.size(), piece_of, contacts);
-  if (contacts.empty()) return 0;
+  add_contacts_in_edges(points, faces, twin, pieces_of_faces(faces, twin), contacts);
+  const Index first_flat = faces.count();
+  if (!beside.empty()) add_flat_pieces(cancelled, points, faces, twin);
+  const std::vector<Index> piece_of = pieces_of_faces(faces, twin);
+  add_contacts_of_flats(beside, first_flat, points, faces, piece_of, contacts);
+  JoinedPieces result;
+  if (contacts.empty()) return result;
   std::sort(contacts.begin(), contacts.end());
   const std::vector<Piece> pieces = measure_pieces(points, faces, wall_count, piece_of);
+  const auto is_flat = [&](Index piece) { return piece >= first_flat; };
+  const auto contacts_of = [&](Index piece) {
+    return std::equal_range(contacts.begin(), contacts.end(), Contact{piece, 0, 0, {}},
+                            [](const Contact& a, const Contact& b) { return a.piece < b.piece; });
+  };
   std::vector<Index> order;
   for (std::size_t i = 0; i < contacts.size(); ++i)
-    if (i == 0 || contacts[i].piece != contacts[i - 1].piece) order.push_back(contacts[i].piece);
+    if (i == 0 || contacts[i].piece != contacts[i - 1].piece)
+      if (const Index piece = contacts[i].piece; !is_flat(piece) && has_volume(pieces[piece]))
+        order.push_back(piece);
   std::sort(order.begin(), order.end(), [&](Index p, Index q) {
     return pieces[p].extent != pieces[q].extent ? pieces[p].extent > pieces[q].extent : p < q;
   });
-  std::vector<char> joined(pieces.size(), 0);
-  Index count = 0;
-  const auto join = [&](const Contact& contact, double extent, std::vector<Index>& whole) {
-    const Piece& other = pieces[contact.other];
-    if (joined[contact.other] || !(other.extent < share * extent) || !has_volume(other)) return;
-    joined[contact.other] = 1;
-    const auto [h, g] = contact.halfedges;
-    if (contact.length > 0)
-      bridge_edge(h, g, twin);
-    else
-      bridge_point(h, g, faces, twin);
-    whole.push_back(contact.other);
-    ++count;
+  std::vector<char> joined(faces.count(), 0);
+  const auto may_join = [&](Index piece, double extent) {
+    return !joined[piece] && pieces[piece].extent < share * extent &&
+           (is_flat(piece) || has_volume(pieces[piece]));
+  };
+  const auto leads_on = [&](Index flat, double extent) {
+    const auto [first, last] = contacts_of(flat);
+    return std::any_of(first, last, [&](const Contact& c) { return may_join(c.other, extent); });
   };
   for (const Index largest : order) {
-    if (joined[largest] || !has_volume(pieces[largest])) continue;
+    if (joined[largest]) continue;
     joined[largest] = 1;
+    const double extent = pieces[largest].extent;
     std::vector<Index> whole{largest};
     for (std::size_t i = 0; i < whole.size(); ++i) {
-      const auto first = std::lower_bound(contacts.begin(), contacts.end(), whole[i],
-                                          [](const Contact& c, Index piece) { return c.piece < piece; });
-      for (auto c = first; c != contacts.end() && c->piece == whole[i]; ++c)
-        join(*c, pieces[largest].extent, whole);
+      const auto [first, last] = contacts_of(whole[i]);
+      for (auto c = first; c != last; ++c) {
+        if (!may_join(c->other, extent)) continue;
+        const auto [h, g] = c->halfedges;
+        if (is_flat(c->other) && !leads_on(c->other, extent) && !goes_on(points, faces, twin, h, g)) continue;
+        joined[c->other] = 1;
+        bridge_edge(h, g, twin);
+        whole.push_back(c->other);
+        is_flat(c->other) ? result.flat_triangles += pieces[c->other].faces / 6 : ++result.solid;
+      }
     }
   }
-  return count;
+  drop_left(first_flat, joined, piece_of, faces, twin);
+  return result;
 }
 
 }  // namespace mspskel::detail

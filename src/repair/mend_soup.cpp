@@ -47,8 +47,7 @@ class Mending {
     watch_.ask(0.6);
     close_loops();
     watch_.ask(0.8);
-    counts().joined_pieces =
-        detail::join_touching_pieces(points_, cancelled_, wall_count_, options_.touching_part, faces_, twin_);
+    join_pieces();
     watch_.ask(0.9);
     finish();
     return std::move(mended_);
@@ -175,6 +174,13 @@ class Mending {
         });
   }
 
+  void join_pieces() {
+    const detail::JoinedPieces joined =
+        detail::join_touching_pieces(cancelled_, wall_count_, options_.touching_part, points_, faces_, twin_);
+    counts().joined_pieces = joined.solid;
+    counts().thickened_faces = joined.flat_triangles;
+  }
+
   void finish() {
     const std::vector<char> keep =
         detail::faces_to_keep(points_, faces_, twin_, wall_count_, options_, counts());
@@ -224,7 +230,7 @@ class Mending {
   const PolygonSoup& soup_;
   const MendOptions& options_;
   detail::Watch watch_;
-  std::vector<Vector3> points_;  // those of the soup, then centres of caps
+  std::vector<Vector3> points_;  // those of the soup, then centres of caps, then of what gets a thickness
   std::vector<Index> point_of_;
   std::vector<char> used_;
   FaceSet faces_, cancelled_;

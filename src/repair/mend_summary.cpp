@@ -14,6 +14,7 @@ std::string summary(const MendedSoup& mended) {
   add(c.degenerate_faces, "degenerate face dropped", "degenerate faces dropped");
   add(c.repeated_faces, "repeated face dropped", "repeated faces dropped");
   add(c.two_sided_faces, "face cancelled by its opposite", "faces cancelled by their opposites");
+  add(c.thickened_faces, "of them thickened", "of them thickened");
   add(c.flap_faces, "triangle of flaps dropped", "triangles of flaps dropped");
   add(c.turned_faces, "triangle turned over", "triangles turned over");
   add(c.paired_edges, "edge of more than two faces resolved", "edges of more than two faces resolved");

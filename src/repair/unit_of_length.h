@@ -22,8 +22,9 @@ inline int exponent_of_unit(const PolygonSoup& soup) {
   return std::abs(exponent) > kMost ? exponent : 0;
 }
 
-// Whether points of a model near one stay where they are when they are scaled. At the least numbers that there
-// are, places a little apart become the same; at the greatest, what lies outside of all becomes no number.
+// Whether points of a model near one stay where they are when they are scaled. At the least numbers that
+// there are, places a little apart become the same; at the greatest, what lies outside of all becomes no
+// number.
 inline bool survives_scaling(const PolygonSoup& near_one, int exponent) {
   constexpr double kLeastLength = 1e-18;
   return std::all_of(near_one.points.begin(), near_one.points.end(), [&](const Vector3& p) {
@@ -35,10 +36,10 @@ inline bool survives_scaling(const PolygonSoup& near_one, int exponent) {
 
 // Why points do not survive scaling, and the remedy.
 inline std::string refusal_to_scale(int exponent, const std::string& verb) {
-  return exponent < 0 ? "the mesh is too small to be " + verb +
-                            ", at the least numbers that there are: scale it up"
-                      : "the mesh is too large to be " + verb +
-                            ", at the greatest numbers that there are: scale it down";
+  return exponent < 0
+             ? "the mesh is too small to be " + verb + ", at the least numbers that there are: scale it up"
+             : "the mesh is too large to be " + verb +
+                   ", at the greatest numbers that there are: scale it down";
 }
 
 inline void scale_points(PolygonSoup& soup, int exponent) {

@@ -257,6 +257,7 @@ Json counts_json(const MendCounts& c) {
           {"degenerate_faces", c.degenerate_faces},
           {"repeated_faces", c.repeated_faces},
           {"two_sided_faces", c.two_sided_faces},
+          {"thickened_faces", c.thickened_faces},
           {"flap_faces", c.flap_faces},
           {"turned_faces", c.turned_faces},
           {"paired_edges", c.paired_edges},

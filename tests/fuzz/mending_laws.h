@@ -68,7 +68,8 @@ inline void check_map(const PolygonSoup& soup, const MendedSoup& mended, bool by
     hit[v] = 1;
   }
   const MendCounts& c = mended.counts;
-  const auto added = c.split_vertices + c.split_edges + static_cast<Index>(mended.openings.size());
+  const auto added =
+      c.split_vertices + c.split_edges + 2 * c.thickened_faces + static_cast<Index>(mended.openings.size());
   hold(std::count(hit.begin(), hit.end(), 0) <= added, "every vertex stands for a point, or was added");
   if (c.flat_components + c.small_components + c.flap_faces + c.degenerate_faces + c.two_sided_faces == 0)
     for (std::size_t p = 0; p < used.size(); ++p)
@@ -86,19 +87,21 @@ inline void check_openings(const MendedSoup& mended) {
 inline void check_counts(const PolygonSoup& soup, const MendedSoup& mended) {
   const MendCounts& c = mended.counts;
   for (const Index n : {c.welded_points, c.stitched_points, c.isolated_points, c.degenerate_faces,
-                        c.repeated_faces, c.two_sided_faces, c.flap_faces, c.turned_faces, c.paired_edges,
-                        c.one_sided_edges, c.split_vertices, c.split_edges, c.holes, c.hole_faces,
-                        c.joined_pieces, c.flat_components, c.small_components, c.small_faces})
+                        c.repeated_faces, c.two_sided_faces, c.thickened_faces, c.flap_faces, c.turned_faces,
+                        c.paired_edges, c.one_sided_edges, c.split_vertices, c.split_edges, c.holes,
+                        c.hole_faces, c.joined_pieces, c.flat_components, c.small_components, c.small_faces})
     hold(n >= 0, "no count is negative");
   hold(c.hole_share >= 0 && c.hole_share <= 1 && c.flat_share >= 0 && c.flat_share <= 1, "shares are shares");
   hold(c.stitched_points <= c.welded_points, "what was stitched was welded");
+  hold(c.thickened_faces <= c.two_sided_faces, "what was thickened was cancelled");
   hold(static_cast<Index>(mended.openings.size()) <= c.holes, "openings are loops");
   const std::vector<char> used = used_points(soup);
   hold(c.isolated_points == std::count(used.begin(), used.end(), 0), "points of no face are counted");
   // Each triangle has its fate.
-  if (!all_triangles(soup) || c.flat_components > 0 || c.joined_pieces > 0) return;
+  if (!all_triangles(soup) || c.flat_components > 0) return;
   const Index left = static_cast<Index>(soup.polygon_count()) - c.degenerate_faces - c.repeated_faces -
-                     2 * c.two_sided_faces - c.flap_faces + c.hole_faces - c.small_faces + 2 * c.split_edges;
+                     2 * c.two_sided_faces + 6 * c.thickened_faces - c.flap_faces + c.hole_faces -
+                     c.small_faces + 2 * c.split_edges;
   hold(left == static_cast<Index>(mended.soup.polygon_count()), "the counts of faces sum up");
 }
 

@@ -217,6 +217,74 @@ TEST_CASE("a small solid that a pair of opposite triangles hangs on a large one 
   CHECK(report_mesh(make_snapshot(build_mesh(mended.soup)), {0}).degenerate_faces == 0);
 }
 
+// A wedge of 4 x 1 whose two sides meet in the edge from (0, 0, 0) to (0, 0, 1) at an angle of 2 * half.
+PolygonSoup wedge(double half) {
+  const double x = -4, y = 4 * std::tan(half);
+  PolygonSoup soup;
+  soup.points = {{0, 0, 0}, {x, y, 0}, {x, -y, 0}, {0, 0, 1}, {x, y, 1}, {x, -y, 1}};
+  for (const auto& [a, b, c] : {std::array<Index, 3>{0, 2, 1},
+                                {3, 4, 5},
+                                {0, 1, 4},
+                                {0, 4, 3},
+                                {1, 2, 5},
+                                {1, 5, 4},
+                                {2, 0, 3},
+                                {2, 3, 5}})
+    soup.add_triangle(a, b, c);
+  return soup;
+}
+
+// Adds the triangle and its opposite.
+void add_flat(PolygonSoup& soup, Index a, Index b, Index c) {
+  soup.add_triangle(a, b, c);
+  soup.add_triangle(a, c, b);
+}
+
+double reach(const PolygonSoup& soup) {
+  double x = -1e9;
+  for (const Index v : soup.corners) x = std::max(x, soup.points[v][0]);
+  return x;
+}
+
+TEST_CASE("what decimation made flat at the acute end of a solid has a thickness again") {
+  const auto [degrees, stays] =
+      GENERATE(table<double, bool>({{20, true}, {44, true}, {45, false}, {60, false}}));
+  const int triangles = GENERATE(1, 2, 3), direction = GENERATE(0, 1);
+  PolygonSoup soup = wedge(degrees * kPi / 180);
+  for (const Vector3& p : {Vector3(0.5, 0, 0.5), Vector3(1, 0, 0), Vector3(1.5, 0, 0.7)})
+    soup.points.push_back(p);
+  if (direction == 0)
+    add_flat(soup, 0, 3, 6);
+  else
+    add_flat(soup, 3, 0, 6);
+  if (triangles > 1) add_flat(soup, 3, 6, 7);
+  if (triangles > 2) add_flat(soup, 6, 8, 7);
+  const MendedSoup mended = mend_soup(soup);
+  CHECK(mended.counts.two_sided_faces == triangles);
+  CHECK(mended.counts.thickened_faces == (stays ? triangles : 0));
+  CHECK(reach(mended.soup) == (stays ? 0.5 * triangles : 0));
+  CHECK(facts_of(mended).components == 1);
+  CHECK(facts_of(mended).genus == 0);
+  const MeshReport report = report_mesh(make_snapshot(build_mesh(mended.soup)), {0});
+  CHECK(report.degenerate_faces == 0);
+  CHECK(report.signed_volume > 0);
+}
+
+TEST_CASE("a flat strip between a small solid and a large one holds them together without a handle") {
+  const bool twice = GENERATE(false, true);
+  PolygonSoup small = wedge(0.3);
+  for (Vector3& p : small.points) p = {1 - 0.1 * p[0], 0.1 * p[1], 0.1 * p[2]};
+  PolygonSoup soup = together({wedge(0.3), inside_out(small)});
+  add_flat(soup, 0, 3, 6);
+  add_flat(soup, 3, 9, 6);
+  if (twice) add_flat(soup, 6, 9, 7);  // by another edge of the small one as well
+  const MendedSoup mended = mend_soup(soup);
+  CHECK(mended.counts.joined_pieces == 1);
+  CHECK(mended.counts.thickened_faces >= 2);
+  CHECK(facts_of(mended).components == 1);
+  CHECK(facts_of(mended).genus == 0);
+}
+
 TEST_CASE("voxels make as many pieces as they have connected over their faces") {
   Random random(GENERATE(range(1, 9)));
   VoxelSolid solid;

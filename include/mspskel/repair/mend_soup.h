@@ -41,6 +41,7 @@ struct MendCounts {
   Index degenerate_faces = 0;  // faces that have fewer than three different corners
   Index repeated_faces = 0;    // faces that repeat an earlier one
   Index two_sided_faces = 0;   // triangles that two opposite faces cancelled, each counted once
+  Index thickened_faces = 0;   // of these, what is left of something thin, which got a thickness again
   Index flap_faces = 0;        // triangles of flaps and inner walls, which bound nothing
   Index turned_faces = 0;      // triangles turned to agree with their neighbours
   Index paired_edges = 0;      // edges of more than two faces
