@@ -79,6 +79,10 @@ class CrossingLabels {
     Index row;
     detail::FillingTriangle corner;
   };
+  struct BorderEdge {  // of a row's loop, or of a contour of its region
+    Index row;
+    Vector3 a, b;
+  };
   struct Filling {
     std::vector<LoopTriangle> triangles;
     detail::BoxIndex boxes;  // of triangles
@@ -100,7 +104,8 @@ class CrossingLabels {
   std::vector<Tile> tiles_;   // of regions
   detail::BoxIndex regions_;  // of tiles
   std::array<Filling, 2> filling_;
-  detail::BoxIndex border_edges_;  // of rows, by the edges of their loops and of their regions' contours
+  std::vector<BorderEdge> border_edges_;
+  detail::BoxIndex border_boxes_;  // of border edges
 };
 
 }  // namespace mspskel

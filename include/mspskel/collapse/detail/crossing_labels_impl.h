@@ -66,13 +66,16 @@ MSPSKEL_INLINE void CrossingLabels::index_borders(const VolumeCocycles& cocycles
   for (Index i = 0; i < static_cast<Index>(rows_.size()); ++i) {
     if (rows_[i].image.is_zero()) continue;
     const auto add = [&](const std::vector<Vector3>& border) {
-      for (std::size_t k = 0, last = border.size() - 1; k < border.size(); last = k++)
-        border_edges_.add(i, border[last].cwiseMin(border[k]), border[last].cwiseMax(border[k]));
+      for (std::size_t k = 0, last = border.size() - 1; k < border.size(); last = k++) {
+        const Vector3 &a = border[last], &b = border[k];
+        border_boxes_.add(static_cast<Index>(border_edges_.size()), a.cwiseMin(b), a.cwiseMax(b));
+        border_edges_.push_back({i, a, b});
+      }
     };
     add(cocycles.cocycle[i].loop);
     for (const Contour& contour : cocycles.cocycle[i].contours) add(contour.point);
   }
-  border_edges_.build();
+  border_boxes_.build();
 }
 
 // +1 from the plane's negative to its positive side.
@@ -120,8 +123,10 @@ MSPSKEL_INLINE CocycleLabel CrossingLabels::along(const std::vector<Vector3>& po
 
 MSPSKEL_INLINE std::vector<Index> CrossingLabels::rows_near(const Vector3& low, const Vector3& high) const {
   std::vector<Index> rows;
-  border_edges_.in_box(low, high, [&](Index row) {
-    if (rows.empty() || rows.back() != row) rows.push_back(row);
+  border_boxes_.in_box(low, high, [&](Index i) {
+    const auto& [row, a, b] = border_edges_[i];
+    if (detail::segment_may_meet_box(a, b, low, high) && (rows.empty() || rows.back() != row))
+      rows.push_back(row);
   });
   std::sort(rows.begin(), rows.end());
   rows.erase(std::unique(rows.begin(), rows.end()), rows.end());

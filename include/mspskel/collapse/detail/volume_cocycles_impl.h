@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -300,9 +301,15 @@ inline void CocycleSearch::keep_periods(Component& component, CocycleSource sour
 
 inline void CocycleSearch::try_linking(Component& component) {
   LinkingPeriods periods(surface_, component.generators, component.outward);
-  for (std::size_t i = 0; i < component.generators.loop.size() && component.open(); ++i) {
+  // Short loops first: each has to be filled, and their surfaces are what later ways are asked about.
+  const std::vector<std::vector<Index>>& dual = component.generators.dual_loop;
+  std::vector<Index> order(dual.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Index a, Index b) { return dual[a].size() < dual[b].size(); });
+  for (std::size_t i = 0; i < order.size() && component.open(); ++i) {
     if (i % 16 == 0) report_progress(progress_, "cocycles", 0.7);
-    const auto loop = static_cast<Index>(i);
+    const Index loop = order[i];
     if (const auto of_loop = periods(loop))
       keep_periods(component, CocycleSource::kLinking, loop, summed(*of_loop));
   }

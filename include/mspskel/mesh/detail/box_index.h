@@ -11,6 +11,21 @@
 namespace mspskel {
 namespace detail {
 
+// Whether a segment whose own box meets the box [low, high] may meet that, by the axes across the segment and
+// an edge of the box; no more than rounding is missed on the far side.
+inline bool segment_may_meet_box(const Vector3& a, const Vector3& b, const Vector3& low,
+                                 const Vector3& high) {
+  constexpr double kRounding = 1e-9;
+  const Vector3 half = (b - a) / 2, way = a + half - (low + high) / 2, size = (high - low) / 2;
+  const double slack = kRounding * (half.squaredNorm() + size.squaredNorm());
+  for (Index k = 0; k < 3; ++k) {
+    const Index i = (k + 1) % 3, j = (k + 2) % 3;
+    const double reach = size[i] * std::abs(half[j]) + size[j] * std::abs(half[i]);
+    if (std::abs(way[i] * half[j] - way[j] * half[i]) > reach + slack) return false;
+  }
+  return true;
+}
+
 class BoxIndex {
  public:
   // Box i is from low to high. Cost: O(n log n).
