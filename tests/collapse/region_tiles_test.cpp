@@ -1,6 +1,7 @@
 // Flat regions in tiles: what lies inside is told by the outlines near a point.
 #include "mspskel/collapse/detail/region_tiles.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <vector>
@@ -91,6 +92,35 @@ TEST_CASE("A point of a flat region lies in one tile, which tells it, and others
     CHECK(inside > 40);
     CHECK(inside < 360);
   }
+}
+
+// Of regular polygons with sides parted at their middles, at binary shares of their boxes.
+TEST_CASE("Tiles tell regular outlines at places where these are even") {
+  for (const int sides : {4, 6, 8, 12, 16})
+    for (const double turn : {0.0, 0.125, 0.25, 0.5}) {
+      Polygon2 outline;
+      const auto corner = [&](int i) {
+        const double angle = 2 * kPi * (i + turn) / sides;
+        return Eigen::Vector2d(3 + std::cos(angle), 2 + std::sin(angle));
+      };
+      for (int i = 0; i < sides; ++i) {
+        outline.push_back(corner(i));
+        outline.push_back((corner(i) + corner(i + 1)) / 2);
+      }
+      const std::vector<RegionTile> tiles = tiles_of({outline});
+      const Eigen::AlignedBox2d box = RegionTile({outline}).box();
+      const double inner = std::cos(kPi / sides);
+      for (int i = 0; i < 64; ++i)
+        for (int j = 0; j < 64; ++j) {
+          const Eigen::Vector2d x = box.min() + Eigen::Vector2d(i, j).cwiseProduct(box.sizes()) / 64;
+          const double distance = (x - Eigen::Vector2d(3, 2)).norm();
+          if (distance > inner - 1e-6 && distance < 1 + 1e-6) continue;
+          const auto telling = std::count_if(tiles.begin(), tiles.end(), [&](const RegionTile& tile) {
+            return tile.holds(x) && tile.inside(x);
+          });
+          if (telling != (distance < 1)) FAIL(sides << " sides, turn " << turn << ", at " << i << ' ' << j);
+        }
+    }
 }
 
 TEST_CASE("A region has no more tiles than its outlines have points, and few pieces of them in each") {

@@ -65,20 +65,28 @@ class RegionTile {
     return tile;
   }
 
+  // Whether a point lies to the left of a piece that is looked along upward, or rightward where it is level.
+  // On the piece it lies as if it were moved a little to the right, and by much less upward.
+  static bool is_left(const Piece& piece, const Eigen::Vector2d& x) {
+    const bool turned =
+        piece[0].y() != piece[1].y() ? piece[0].y() > piece[1].y() : piece[0].x() > piece[1].x();
+    const Eigen::Vector2d &from = piece[turned ? 1 : 0], way = piece[turned ? 0 : 1] - from, to_x = x - from;
+    const double turn = way.x() * to_x.y() - way.y() * to_x.x();
+    return turn > 0 || (turn == 0 && way.y() == 0);
+  }
+
   // Whether the way from x along the first axis and on along the second one to y meets outlines an odd number
-  // of times. Pieces hold one of their ends, so that none counts twice.
+  // of times. Pieces hold one of their ends, as points on them lie, so that none counts twice.
   bool parity(const Eigen::Vector2d& x, const Eigen::Vector2d& y) const {
-    bool odd = false;
-    const auto leg = [&](Eigen::Index along, double from, double to, double at) {
-      const Eigen::Index across = 1 - along;
-      for (const auto& [a, b] : pieces_) {
-        if ((a[across] > at) == (b[across] > at)) continue;
-        const double crossing = a[along] + (at - a[across]) / (b[across] - a[across]) * (b[along] - a[along]);
-        if ((crossing > from) != (crossing > to)) odd = !odd;
-      }
+    const Eigen::Vector2d corner(y.x(), x.y());
+    const auto spans = [](const Piece& piece, Eigen::Index across, double at) {
+      return (piece[0][across] > at) != (piece[1][across] > at);
     };
-    leg(0, x.x(), y.x(), x.y());
-    leg(1, x.y(), y.y(), y.x());
+    bool odd = false;
+    for (const Piece& piece : pieces_) {
+      if (spans(piece, 1, x.y()) && is_left(piece, x) != is_left(piece, corner)) odd = !odd;
+      if (spans(piece, 0, y.x()) && is_left(piece, corner) != is_left(piece, y)) odd = !odd;
+    }
     return odd;
   }
 
