@@ -7,13 +7,9 @@
 
 namespace mspskel::detail {
 
-//         /|\             Each triangle that two opposite faces cancelled becomes two pyramids, base on base,
-//         a
-//   a <--- m ---> b       tenth as high as its shortest edge. Those that hang together over edges are one
-//   piece;
-//         \|/             where they close a ring over edges, it stays open at one of them, so that a piece
-//         is a
-//        (seen along an edge)    sphere.
+// Each triangle that two opposite faces cancelled becomes two pyramids, base on base, a tenth as high as its
+// shortest edge. Those that hang together over edges are one piece. Where they close a ring over edges it
+// stays open at one of them, so that a piece is a sphere.
 //
 // Adds the tips of the pyramids to `points`, six faces a triangle to `faces` and their twins. The first three
 // of the six run along the triangle's edges as it does. O(n log n).

@@ -45,6 +45,22 @@ PolygonSoup cells(std::initializer_list<Cell> list) {
   return boundary(solid);
 }
 
+// On two triangles, the lower one first.
+PolygonSoup prism(const std::vector<Vector3>& points) {
+  PolygonSoup soup;
+  soup.points = points;
+  for (const auto& [a, b, c] : {std::array<Index, 3>{0, 2, 1},
+                                {3, 4, 5},
+                                {0, 1, 4},
+                                {0, 4, 3},
+                                {1, 2, 5},
+                                {1, 5, 4},
+                                {2, 0, 3},
+                                {2, 3, 5}})
+    soup.add_triangle(a, b, c);
+  return soup;
+}
+
 double height(const PolygonSoup& soup, bool top) {
   double z = soup.points[0].z();
   for (const Vector3& p : soup.points) z = top ? std::max(z, p.z()) : std::min(z, p.z());
@@ -164,17 +180,9 @@ TEST_CASE("what hangs on a solid by an edge between two wedges of void hangs on 
     const double turn = degrees * kPi / 180;
     return Vector3((mirrored ? -1 : 1) * radius * std::cos(turn), radius * std::sin(turn), z);
   };
-  PolygonSoup large, small;
-  large.points = {at(0, 0, 0), at(180, 4, 0), at(270, 4, 0), at(0, 0, 1), at(180, 4, 1), at(270, 4, 1)};
-  for (const auto& [a, b, c] : {std::array<Index, 3>{0, 2, 1},
-                                {3, 4, 5},
-                                {0, 1, 4},
-                                {0, 4, 3},
-                                {1, 2, 5},
-                                {1, 5, 4},
-                                {2, 0, 3},
-                                {2, 3, 5}})
-    large.add_triangle(a, b, c);
+  const PolygonSoup large =
+      prism({at(0, 0, 0), at(180, 4, 0), at(270, 4, 0), at(0, 0, 1), at(180, 4, 1), at(270, 4, 1)});
+  PolygonSoup small;
   small.points = {at(0, 0, 0), at(0, 0, 1), at(110, 0.5, 0.5), at(150, 0.5, 0.5)};
   for (const auto& [a, b, c] : {std::array<Index, 3>{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}})
     small.add_triangle(a, b, c);
@@ -220,18 +228,7 @@ TEST_CASE("a small solid that a pair of opposite triangles hangs on a large one 
 // A wedge of 4 x 1 whose two sides meet in the edge from (0, 0, 0) to (0, 0, 1) at an angle of 2 * half.
 PolygonSoup wedge(double half) {
   const double x = -4, y = 4 * std::tan(half);
-  PolygonSoup soup;
-  soup.points = {{0, 0, 0}, {x, y, 0}, {x, -y, 0}, {0, 0, 1}, {x, y, 1}, {x, -y, 1}};
-  for (const auto& [a, b, c] : {std::array<Index, 3>{0, 2, 1},
-                                {3, 4, 5},
-                                {0, 1, 4},
-                                {0, 4, 3},
-                                {1, 2, 5},
-                                {1, 5, 4},
-                                {2, 0, 3},
-                                {2, 3, 5}})
-    soup.add_triangle(a, b, c);
-  return soup;
+  return prism({{0, 0, 0}, {x, y, 0}, {x, -y, 0}, {0, 0, 1}, {x, y, 1}, {x, -y, 1}});
 }
 
 // Adds the triangle and its opposite.
