@@ -152,10 +152,10 @@ struct CornerUse {
 }  // namespace
 
 std::vector<char> faces_to_keep(const std::vector<Vector3>& points, const FaceSet& faces,
-                                const std::vector<Index>& twin, Index wall_count, const MendOptions& options,
+                                const std::vector<Index>& twin, const MendOptions& options,
                                 MendCounts& counts) {
   const std::vector<Index> piece_of = pieces_of_faces(faces, twin);
-  const std::vector<Piece> pieces = measure_pieces(points, faces, wall_count, piece_of);
+  const std::vector<Piece> pieces = measure_pieces(points, faces, piece_of);
   double largest = 0;
   for (const Piece& piece : pieces)
     if (piece.faces > 0 && has_volume(piece)) largest = std::max(largest, piece.extent);

@@ -8,10 +8,9 @@
 
 namespace mspskel::detail {
 
-// Which triangles belong to a piece that encloses a volume and is no crumb. `wall_count`: the triangles from
-// there on are caps.
+// Which triangles belong to a piece that encloses a volume and is no crumb.
 std::vector<char> faces_to_keep(const std::vector<Vector3>& points, const FaceSet& faces,
-                                const std::vector<Index>& twin, Index wall_count, const MendOptions& options,
+                                const std::vector<Index>& twin, const MendOptions& options,
                                 MendCounts& counts);
 
 // The kept triangles with a vertex for each fan of faces, so that no vertex has two, and a vertex in the

@@ -25,7 +25,7 @@ void add_pyramids(const FaceSet& triangles, Index t, std::vector<Vector3>& point
     points.push_back(centre + side * kHeight * shortest * normal);
     for (int i = 0; i < 3; ++i) {
       const Index a = corner[i], b = corner[(i + 1) % 3];
-      side > 0 ? faces.add(a, b, tip, kNone) : faces.add(b, a, tip, kNone);
+      side > 0 ? faces.add(a, b, tip, triangles.polygon[t]) : faces.add(b, a, tip, triangles.polygon[t]);
     }
   }
   twin.resize(faces.corners.size(), kNone);

@@ -124,8 +124,8 @@ void drop_left(Index first, const std::vector<char>& joined, const std::vector<I
 
 }  // namespace
 
-JoinedPieces join_touching_pieces(const FaceSet& cancelled, Index wall_count, double share,
-                                  std::vector<Vector3>& points, FaceSet& faces, std::vector<Index>& twin) {
+JoinedPieces join_touching_pieces(const FaceSet& cancelled, double share, std::vector<Vector3>& points,
+                                  FaceSet& faces, std::vector<Index>& twin) {
   const std::vector<Ends> beside = beside_cancelled(cancelled, faces, twin, points.size());
   std::vector<Contact> contacts;
   add_contacts_in_edges(points, faces, twin, pieces_of_faces(faces, twin), contacts);
@@ -136,7 +136,7 @@ JoinedPieces join_touching_pieces(const FaceSet& cancelled, Index wall_count, do
   JoinedPieces result;
   if (contacts.empty()) return result;
   std::sort(contacts.begin(), contacts.end());
-  const std::vector<Piece> pieces = measure_pieces(points, faces, wall_count, piece_of);
+  const std::vector<Piece> pieces = measure_pieces(points, faces, piece_of);
   const auto is_flat = [&](Index piece) { return piece >= first_flat; };
   const auto contacts_of = [&](Index piece) {
     return std::equal_range(contacts.begin(), contacts.end(), Contact{piece, 0, 0, {}},

@@ -23,7 +23,7 @@ struct JoinedPieces {
   Index solid = 0;           // pieces that joined others
   Index flat_triangles = 0;  // cancelled ones that came back
 };
-JoinedPieces join_touching_pieces(const FaceSet& cancelled, Index wall_count, double share,
-                                  std::vector<Vector3>& points, FaceSet& faces, std::vector<Index>& twin);
+JoinedPieces join_touching_pieces(const FaceSet& cancelled, double share, std::vector<Vector3>& points,
+                                  FaceSet& faces, std::vector<Index>& twin);
 
 }  // namespace mspskel::detail

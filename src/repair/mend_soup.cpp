@@ -176,14 +176,13 @@ class Mending {
 
   void join_pieces() {
     const detail::JoinedPieces joined =
-        detail::join_touching_pieces(cancelled_, wall_count_, options_.touching_part, points_, faces_, twin_);
+        detail::join_touching_pieces(cancelled_, options_.touching_part, points_, faces_, twin_);
     counts().joined_pieces = joined.solid;
     counts().thickened_faces = joined.flat_triangles;
   }
 
   void finish() {
-    const std::vector<char> keep =
-        detail::faces_to_keep(points_, faces_, twin_, wall_count_, options_, counts());
+    const std::vector<char> keep = detail::faces_to_keep(points_, faces_, twin_, options_, counts());
     if (std::find(keep.begin(), keep.end(), 1) == keep.end()) refuse_without_volume();
     watch_.ask(0.95);
     std::vector<Index> vertex_of_added;

@@ -16,7 +16,7 @@ std::vector<Index> pieces_of_faces(const FaceSet& faces, const std::vector<Index
   return piece_of;
 }
 
-std::vector<Piece> measure_pieces(const std::vector<Vector3>& points, const FaceSet& faces, Index wall_count,
+std::vector<Piece> measure_pieces(const std::vector<Vector3>& points, const FaceSet& faces,
                                   const std::vector<Index>& piece_of) {
   std::vector<Piece> pieces(faces.count());
   for (Index f = 0; f < faces.count(); ++f) {
@@ -25,7 +25,7 @@ std::vector<Piece> measure_pieces(const std::vector<Vector3>& points, const Face
     const Vector3& base = points[piece.first_corner];
     const Vector3 doubled = area_vector(points, faces, f);
     const double area = doubled.norm() / 2;
-    (f < wall_count ? piece.wall : piece.caps) += area;
+    (faces.polygon[f] != kNone ? piece.wall : piece.caps) += area;
     piece.volume += doubled.dot(points[faces.corners[3 * f]] - base);
     for (int k = 0; k < 3; ++k) piece.centre += area * (points[faces.corners[3 * f + k]] - base) / 3;
   }

@@ -20,9 +20,8 @@ struct Piece {
 // Per triangle its piece, named by the first triangle of it.
 std::vector<Index> pieces_of_faces(const FaceSet& faces, const std::vector<Index>& twin);
 
-// Indexed by piece; of no faces where no piece has that name. `wall_count`: the triangles from there on are
-// caps.
-std::vector<Piece> measure_pieces(const std::vector<Vector3>& points, const FaceSet& faces, Index wall_count,
+// Indexed by piece; of no faces where no piece has that name. Caps are of no polygon of the input.
+std::vector<Piece> measure_pieces(const std::vector<Vector3>& points, const FaceSet& faces,
                                   const std::vector<Index>& piece_of);
 
 // False for what is flat (its volume is nothing beside its area: a sphere's is 36 pi V² / A³ = 1, such a

@@ -267,6 +267,20 @@ TEST_CASE("what decimation made flat at the acute end of a solid has a thickness
   CHECK(report.signed_volume > 0);
 }
 
+TEST_CASE("what was flat and got a thickness is no lid, however much of a thin solid it is") {
+  PolygonSoup soup = wedge(0.01);
+  for (Vector3& p : soup.points) p[2] *= 0.3;
+  for (const Vector3& p : {Vector3(1.5, 0, 0.15), Vector3(1.2, 0, 0.9), Vector3(1.2, 0, -0.6)})
+    soup.points.push_back(p);
+  add_flat(soup, 0, 3, 6);
+  add_flat(soup, 3, 7, 6);
+  add_flat(soup, 0, 6, 8);
+  const MendedSoup mended = mend_soup(soup);
+  CHECK(mended.counts.thickened_faces == 3);
+  CHECK(mended.counts.hole_share == 0);
+  CHECK(facts_of(mended).components == 1);
+}
+
 TEST_CASE("a flat strip between a small solid and a large one holds them together without a handle") {
   const bool twice = GENERATE(false, true);
   PolygonSoup small = wedge(0.3);
