@@ -20,6 +20,7 @@
 #include "mspskel/mesh/inner_distance.h"
 #include "mspskel/mesh/subdivide_surface.h"
 #include "mspskel/samples/blocks.h"
+#include "mspskel/samples/polygonise.h"
 #include "mspskel/samples/skin_graph.h"
 #include "support/pipes.h"
 #include "support/questions.h"
@@ -339,6 +340,23 @@ TEST_CASE("Tubes that fork in one plane are no plate, however wide the fork is")
   }
 }
 
+TEST_CASE("A piece of a bent sheet is no plate") {
+  constexpr double kRadius = 3, kHalfThickness = 0.15, kHalfHeight = 0.75, kHalfAngle = 1.1;
+  ImplicitSolid sheet;
+  sheet.low = Vector3(-kRadius - 0.5, -0.5, -1.2);
+  sheet.high = Vector3(kRadius + 0.5, kRadius + 0.5, 1.2);
+  sheet.value = [](const Vector3& x) {
+    const double angle = std::atan2(x.x(), x.y());
+    const Vector3 across(std::abs(std::hypot(x.x(), x.y()) - kRadius) - kHalfThickness,
+                         std::abs(x.z()) - kHalfHeight, kRadius * (std::abs(angle) - kHalfAngle));
+    return 0.7 * across.maxCoeff();
+  };
+  const Solid solid(to_mesh(polygonise(sheet, 3000, kHalfThickness)));
+  std::vector<double> along(solid.surface.position.size());
+  for (std::size_t v = 0; v < along.size(); ++v) along[v] = std::abs(solid.surface.position[v].x());
+  CHECK(detail::PlateSearch(solid.surface, solid.hierarchy, LimbOptions(), {}).run(along).empty());
+}
+
 TEST_CASE("A plate that forks has a limb for each of its lobes, also where these are most of it") {
   for (const int length : {5, 7, 10}) {
     VoxelSolid fish;
@@ -590,6 +608,53 @@ TEST_CASE("Small ears count on a body with limbs, and no bump of a body without"
   bump.carrier_half_chord = 1;
   bump.depth_over_mouth = 0.4;  // less area than a flat disc with such a rim: a piece of a disc's edge
   CHECK_FALSE(is_ear(bump, {}));
+}
+
+TEST_CASE("A needle that leaves a fold of something thick is no twig") {
+  // A block, round about the z axis, with a needle in the middle of its upper side. A cavity lies so near
+  // below most of that side that chords inward from there are shorter than the needle is thick.
+  constexpr Index kRound = 24;
+  constexpr double kRadius = 0.5, kHeight = 0.6, kNeedle = 0.012, kSkin = 4e-4, kFold = -0.002;
+  std::vector<Eigen::Vector2d> profile;  // radius and height of each ring
+  for (const double share : {0.75, 0.5, 0.25})
+    profile.push_back({0.001 * (1 - 0.8 * share), share * kNeedle});
+  for (double radius = 0.001; radius < 0.02; radius += 0.002) profile.push_back({radius, 0});
+  for (double radius = 0.03; radius < kRadius; radius *= 1.5) profile.push_back({radius, 0});
+  for (const double height : {0.0, -0.5 * kHeight, -kHeight}) profile.push_back({kRadius, height});
+  PolygonSoup soup;
+  soup.points = {{0, 0, kNeedle}, {0, 0, -kHeight}};
+  for (const Eigen::Vector2d& ring : profile)
+    for (Index k = 0; k < kRound; ++k) {
+      const double angle = 2 * kPi * k / kRound;
+      soup.points.push_back({ring.x() * std::cos(angle), ring.x() * std::sin(angle), ring.y()});
+    }
+  const auto at = [](std::size_t ring, Index k) {
+    return 2 + kRound * static_cast<Index>(ring) + k % kRound;
+  };
+  for (Index k = 0; k < kRound; ++k) {
+    soup.add_triangle(0, at(0, k), at(0, k + 1));
+    soup.add_triangle(1, at(profile.size() - 1, k + 1), at(profile.size() - 1, k));
+    for (std::size_t ring = 0; ring + 1 < profile.size(); ++ring) {
+      soup.add_triangle(at(ring, k), at(ring + 1, k), at(ring + 1, k + 1));
+      soup.add_triangle(at(ring, k), at(ring + 1, k + 1), at(ring, k + 1));
+    }
+  }
+  VoxelSolid cell;
+  cell.box({0, 0, 0}, {1, 1, 1});
+  const PolygonSoup cavity = boundary(cell);
+  const auto first = static_cast<Index>(soup.points.size());
+  for (const Vector3& p : cavity.points)
+    soup.points.push_back({p.x() > 0.5 ? 0.3 : kFold, p.y() > 0.5 ? 0.2 : -0.2, p.z() > 0.5 ? -kSkin : -0.3});
+  for (std::size_t i = 0; i < cavity.corners.size(); i += 3)
+    soup.add_triangle(first + cavity.corners[i], first + cavity.corners[i + 2],
+                      first + cavity.corners[i + 1]);
+  const Solid solid(to_mesh(soup));
+  REQUIRE(solid.surface.component_count == 2);
+  VertexSlices slices = solid.slices();  // through a fold's own vertices they are as narrow as it is
+  for (std::size_t v = 0; v < slices.half_width.size(); ++v)
+    if (solid.model(solid.surface.position[v]).head<2>().norm() < 0.02) slices.half_width[v] = 0.001;
+  for (const LimbTip& tip : find_limb_tips(solid.surface, solid.hierarchy, slices, {}))
+    CHECK(solid.model(tip.position).z() < 0.5 * kNeedle);
 }
 
 TEST_CASE("A handle without limbs has no tips: the loop is its skeleton") {

@@ -389,6 +389,45 @@ TEST_CASE("What no arc comes near gets an arc and a tip, whatever other limbs we
   CHECK(map_is_partition(graph));
 }
 
+TEST_CASE("No arc begins in the end of another limb, which would lose its leaf") {
+  BallGraph body;
+  body.blend = 0.05;
+  body.nodes = {{{-3, 0, 0}, 2}, {{3, 0, 0}, 2}, {{3, 0, 1.6}, 0.8}, {{4.2, 0, 1}, 0.45}, {{8, 0, 1}, 0.45}};
+  body.edges = {{0, 1}, {1, 2}, {3, 4}};
+  const Solid solid(to_mesh(skin_graph(body, 3000)));
+  ArcGraph graph;
+  for (const Vector3& x : {Vector3(2, 0, 0), Vector3(-3, 0, 0), Vector3(3, 0, 1.2), Vector3(2.2, 0, -1)})
+    graph.add_hub(solid.at(x));
+  for (const Index end : {1, 2, 3}) line(graph, 0, end);
+  map_to_nearest(graph, solid.surface.position);
+  std::vector<LimbTip> tips = {LimbTip()};
+  LimbTip& bump = tips.front();
+  for (Index v = 0; v < solid.surface.vertex_count(); ++v) {
+    const Vector3 x = solid.model(solid.surface.position[v]);
+    if (x.x() > 4) {  // the horn is the body's
+      graph.arc_of_vertex[v] = 0;
+      graph.hub_of_vertex[v] = kNone;
+    }
+    if ((x - Vector3(3, 0, 2.4)).norm() > 0.6) continue;
+    bump.cap.push_back(v);
+    if (bump.vertex == kNone || x.z() > solid.model(solid.surface.position[bump.vertex]).z()) bump.vertex = v;
+  }
+  bump.position = bump.target = solid.surface.position[bump.vertex];
+  bump.measures.depth = 0.8 / solid.surface.frame.scale;
+  bump.measures.half_width = 0.4 / solid.surface.frame.scale;
+  bump.measures.slenderness = 2;
+  const auto leaf_of_bump = [&] {
+    const auto at = graph.incidence();
+    return at[2].size() == 1 &&
+           detail::leaves_of_tips(graph, detail::ArcLeaves(graph, at), {bump})[0] != detail::kNoLeaf;
+  };
+  REQUIRE(leaf_of_bump());
+  const Index leaves = leaf_count(graph);
+  CHECK(complete_limbs(graph, solid.surface, solid.hierarchy, tips, {}, 0.01) >= 1);
+  CHECK(leaf_of_bump());
+  CHECK(leaf_count(graph) > leaves);
+}
+
 TEST_CASE("A leaning horn that no arc comes near is reached to its tip") {
   BallGraph leaning;
   leaning.blend = 0.05;

@@ -1,6 +1,9 @@
 // When a part of the shape is a limb that deserves an arc.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "mspskel/base/error.h"
 #include "mspskel/base/types.h"
 
@@ -54,8 +57,11 @@ struct LimbMeasures {
   double depth_over_mouth = 0.0;
 };
 
-// Whether a part is blunter than a right-angled cone. Spikes and fins are deep for their mouths.
-inline bool is_blunt(double depth_over_mouth) { return depth_over_mouth < 1.4142; }
+// Depth over mouth of a right-angled cone.
+inline constexpr double kSharp = 1.4142;
+
+// Whether a part is blunter than that. Spikes and fins are deep for their mouths.
+inline bool is_blunt(double depth_over_mouth) { return depth_over_mouth < kSharp; }
 
 // Whether a part is no sharper than the right-angled corner of a slab, by both of its measures: beyond a
 // level across such a corner lie 2 depth² of area on the two sides and 2√2 depth · thickness on the edges,
@@ -141,10 +147,12 @@ inline bool is_ear(const LimbMeasures& m, const LimbOptions& o) {
          !is_corner(m) && !is_flap(m);
 }
 
-// How slender a part that no arc comes near has to be to get one: as a digit where it is blunt, since the
-// rest of the shape, which the arcs cover, is no part of its measure.
+// How slender a part that no arc comes near has to be to get one: as a limb where it is sharp and as a digit
+// where it is blunt, since the rest of the shape, which the arcs cover, is no part of its measure. A step
+// between the two would make equal parts differ that noise puts on both sides of it.
 inline double uncovered_slenderness(double depth_over_mouth, const LimbOptions& o) {
-  return is_blunt(depth_over_mouth) ? kFinger * o.slenderness : o.slenderness;
+  constexpr double kSteepness = 1.5;
+  return o.slenderness * std::clamp(std::pow(kSharp / depth_over_mouth, kSteepness), 1.0, kFinger);
 }
 
 }  // namespace mspskel

@@ -77,7 +77,7 @@ class PlateGrowth {
     if (faces.size() < kLeastFaces) return std::nullopt;
     fill_gaps(faces);
     std::optional<Plate> plate = measurement_.run(slab, faces, [&](Index f) { return grown_[f] == growth_; });
-    if (plate && !is_wide(faces, slab)) return std::nullopt;
+    if (plate && (goes_on_bent(faces, slab) || !is_wide(faces, slab))) return std::nullopt;
     return plate;
   }
 
@@ -93,6 +93,8 @@ class PlateGrowth {
 
  private:
   static constexpr double kAlike = 1.5;  // two thicknesses of one plate
+
+  static bool are_alike(double one, double other) { return one < kAlike * other && other < kAlike * one; }
 
   // Whether the solid is as thick across at a point of the middle plane.
   bool is_as_thick(const Vector3& x, const Vector3& across, double thickness) const {
@@ -141,6 +143,23 @@ class PlateGrowth {
       if (ways == kWays) wide += area;
     }
     return wide >= kShare * sides;
+  }
+
+  // Whether most of where the faces of a plate end is no root: the surface goes on without an edge and the
+  // solid is as thick there, so that they are a piece of a bent sheet. A ray for each face beyond.
+  bool goes_on_bent(const std::vector<Index>& faces, const PlateSlab& slab) {
+    constexpr double kSmooth = 0.85, kMost = 0.5;
+    double length = 0, bent = 0;
+    for (const Index f : faces)
+      for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+        const Index beyond = SurfaceSnapshot::face(surface_.twin[h]);
+        if (grown_[beyond] == growth_) continue;
+        const double edge = surface_.edge_length(h);
+        length += edge;
+        if (normal_[f].dot(normal_[beyond]) >= kSmooth && are_alike(chord(beyond), slab.thickness))
+          bent += edge;
+      }
+    return bent > kMost * length;
   }
 
   // A face of the side of a plate that a vertex is on the rim of: where the ball inward of it, as wide as it
@@ -216,7 +235,7 @@ class PlateGrowth {
       if (std::abs(slab.across.dot(surface_.face_centroid(f) - slab.middle)) > kReach * slab.thickness)
         return false;
       const double here = thickness_at(f, slab);
-      return here < kAlike * slab.thickness && slab.thickness < kAlike * here;
+      return are_alike(here, slab.thickness);
     };
     std::vector<Index> faces{first};
     grown_[first] = asked_[first] = ++growth_;

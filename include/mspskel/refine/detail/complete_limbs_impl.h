@@ -230,16 +230,42 @@ class LimbCompletion {
     return limbs;
   }
 
-  // The points of the skeleton nearest to x, of a vertex's component.
-  LimbWays::NearPoints own_points(Index v, const Vector3& x) const {
+  // The points of the skeleton nearest to a vertex, of its component.
+  LimbWays::NearPoints own_points(Index v) const {
     const auto own = [&](Index hub) { return hub_component_[hub] == surface_.component[v]; };
-    return nearest_points(graph_, x, own, [&](Index arc) { return own(graph_.arcs[arc].hub[0]); });
+    return nearest_points(graph_, surface_.position[v], own,
+                          [&](Index arc) { return own(graph_.arcs[arc].hub[0]); });
+  }
+
+  // Without those in the ends of other limbs: an arc that began there would take the leaf from its limb. What
+  // goes on from the end of a limb's own arc does begin there.
+  LimbWays::NearPoints without_ends(LimbWays::NearPoints points, Index v) const {
+    constexpr double kEndOfLimb = 2;  // half widths
+    const ArcLeaves leaves(graph_, graph_.incidence());
+    const std::vector<std::size_t> leaf = leaves_of_tips(graph_, leaves, tips_);
+    const auto ends_other_limb = [&](const std::pair<double, GraphPoint>& near) {
+      const GraphPoint& point = near.second;
+      for (std::size_t t = 0; t < tips_.size(); ++t) {
+        if (leaf[t] == kNoLeaf) continue;
+        const auto& [arc, joint, tip] = leaves.leaf[leaf[t]];
+        if ((point.hub == tip || point.arc == arc) && graph_.arc_of_vertex[v] != arc &&
+            graph_.hub_of_vertex[v] != tip &&
+            (point.position - graph_.hub_position[tip]).norm() < kEndOfLimb * tips_[t].measures.half_width)
+          return true;
+      }
+      return false;
+    };
+    points.erase(std::remove_if(points.begin(), points.end(), ends_other_limb), points.end());
+    return points;
   }
 
   bool try_limb(Index v, double half_width) {
     GraphPoint start;
     std::vector<Vector3> way;
-    if (!ways_.find(v, half_width, own_points(v, surface_.position[v]), start, way)) return false;
+    const LimbWays::NearPoints points = own_points(v);
+    if (!ways_.find(v, half_width, without_ends(points, v), start, way) &&
+        !ways_.find(v, half_width, points, start, way))
+      return false;
     // A few rounds of centring with the start held.
     way = centred_alone(way, solid_, step_);
     if (solid_.segment_crosses(start.position, way.front())) return false;
