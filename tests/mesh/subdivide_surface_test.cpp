@@ -79,6 +79,14 @@ DefaultMesh sparse_gear(int teeth, double length) {
 
 }  // namespace
 
+TEST_CASE("A turned surface is cut in as many places") {
+  const DefaultMesh cross = sparse_cross(7);
+  const Index cuts = subdivide_surface(make_snapshot(cross)).cuts;
+  REQUIRE(cuts > 0);
+  for (const double angle : {0.3, 0.8, 2.0})
+    CHECK(subdivide_surface(make_snapshot(rotated(cross, {1, 2, 3}, angle))).cuts == cuts);
+}
+
 TEST_CASE("Cutting edges keeps the surface, its frame and its vertices") {
   for (const DefaultMesh& mesh : {cube(), tetrahedron(), torus(1, 0.4, 8, 5), prism(3, 9, 1)}) {
     const SurfaceSnapshot before = make_snapshot(mesh);

@@ -25,7 +25,7 @@ struct UncoveredPart {
 inline constexpr double kMissedWidths = 2.25;
 
 struct CoverageOptions {
-  double smallest = 0.015;  // less deep parts are none; a share of their component's diagonal. [0, 1]
+  double smallest = 0.015;  // less deep parts are none; a share of their component's extent. [0, 1]
 };
 
 // The parts of at least kMissedWidths, and the plates that find_limb_tips would tell as limbs and that have

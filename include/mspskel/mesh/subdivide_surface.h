@@ -17,7 +17,7 @@ struct SubdivisionOptions {
   Index most_added = 16'000;
   // All components together. One of many is given its even share of it at most. [1, 2^31)
   Index most_added_in_all = 20'000;
-  double longest = 0.03;  // edge that is left as it is, as a share of the diagonal of its component. (0, 1]
+  double longest = 0.03;  // edge that is left as it is, as a share of the extent of its component. (0, 1]
 };
 
 // Throws UsageError naming the option that is out of range.

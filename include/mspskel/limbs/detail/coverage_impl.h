@@ -6,7 +6,7 @@
 #include "mspskel/base/linkage.h"
 #include "mspskel/limbs/detail/bare_plates.h"
 #include "mspskel/limbs/detail/slender_parts.h"
-#include "mspskel/mesh/detail/component_diagonals.h"
+#include "mspskel/mesh/detail/component_extents.h"
 #include "mspskel/mesh/subdivide_surface.h"
 #include "mspskel/skeleton/detail/placed_skeleton.h"
 #include "mspskel/solid/detail/ball_tree.h"
@@ -99,12 +99,12 @@ MSPSKEL_INLINE std::vector<UncoveredPart> find_uncovered_parts(const SurfaceSnap
   std::vector<Index> beyond;
   for (Index v = 0; v < surface.vertex_count(); ++v)
     if (outside[v] > 0) beyond.push_back(v);
-  const std::vector<double> diagonal = detail::component_diagonals(surface);
+  const std::vector<double> extent = detail::component_extents(surface);
   std::vector<UncoveredPart> found;
   // The balls are the body, so that what is beyond them may be nearly all.
   for (const detail::SlenderPart& part : detail::slender_parts(
            surface, outside, std::move(beyond),
-           [&](Index v) { return options.smallest * diagonal[surface.component[v]]; },
+           [&](Index v) { return options.smallest * extent[surface.component[v]]; },
            detail::LargestPart::kAny)) {
     if (!(part.slenderest.depth > 0)) continue;
     const double widths = 0.5 * part.slenderest.slenderness();

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "mspskel/base/linkage.h"
-#include "mspskel/mesh/detail/component_diagonals.h"
+#include "mspskel/mesh/detail/component_extents.h"
 
 namespace mspskel {
 namespace detail {
@@ -15,7 +15,7 @@ inline std::vector<double> longest_edges(const SurfaceSnapshot& surface, const S
   std::vector<Index> count(static_cast<std::size_t>(surface.component_count), 0);
   for (const Index c : surface.component)
     if (c != kNone) ++count[c];
-  std::vector<double> longest = component_diagonals(surface);
+  std::vector<double> longest = component_extents(surface);
   for (std::size_t c = 0; c < longest.size(); ++c)
     longest[c] *= count[c] < options.enough ? options.longest : 1.0;
   return longest;
@@ -130,7 +130,7 @@ MSPSKEL_INLINE void validate(const SubdivisionOptions& o) {
   if (o.most_added < 1) throw UsageError("a surface to be subdivided may be given 1 vertex at least");
   if (o.most_added_in_all < 1) throw UsageError("surfaces to be subdivided may be given 1 vertex at least");
   if (!(o.longest > 0 && o.longest <= 1))
-    throw UsageError("the longest edge of a subdivided surface must be from 0 to 1 of the diagonal");
+    throw UsageError("the longest edge of a subdivided surface must be from 0 to 1 of the extent");
 }
 
 MSPSKEL_INLINE bool has_long_edge(const SurfaceSnapshot& surface, const SubdivisionOptions& options) {

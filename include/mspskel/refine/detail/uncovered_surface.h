@@ -22,7 +22,7 @@ namespace detail {
 // What no ball comes near and protrudes less is none, in smallest features.
 inline constexpr double kLeastProtrusion = 3.5;
 // Of the corners of slabs: levels bend round the balls of arcs.
-inline constexpr double kSlabSlack = 1.1;
+inline constexpr double kSlabSlack = 1.2;
 
 class UncoveredSurface {
  public:
