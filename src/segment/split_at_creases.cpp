@@ -127,13 +127,14 @@ class PieceMerger {
       return std::tie(other.a, other.b) < std::tie(a, b);
     }
   };
-  // Keys are as worths are to each other: bits of numbers that are not negative count up with them.
+  // Keys are as worths are to each other: bits of numbers that are not negative count up with them. What
+  // differs by rounding alone is equal, as on regular meshes: else the order would be how the surface lies.
   static std::uint64_t key_of(const Worth& worth) {
-    const double cost = std::abs(worth.second);
-    std::uint64_t bits = 0;
-    static_assert(sizeof bits == sizeof cost);
-    std::memcpy(&bits, &cost, sizeof bits);
-    return bits | static_cast<std::uint64_t>(worth.first) << 63;
+    const auto rounded = static_cast<float>(std::abs(worth.second));
+    std::uint32_t bits = 0;
+    static_assert(sizeof bits == sizeof rounded);
+    std::memcpy(&bits, &rounded, sizeof bits);
+    return bits | static_cast<std::uint64_t>(worth.first) << 32;
   }
 
   Worth worth(Index a, Index b, const Border& border) const {

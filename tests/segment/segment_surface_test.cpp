@@ -202,6 +202,22 @@ TEST_CASE("a box on a box is a part, whose border is the crease") {
   CHECK(wrong == 0);
 }
 
+TEST_CASE("the parts of a regular mesh do not depend on how it lies") {
+  test::VoxelSolid stairs;
+  for (int k = 0; k < 5; ++k) stairs.box({4 * k, k, 0}, {4 * k + 4, 9 - k, 2 + 3 * k});
+  const DefaultMesh mesh = test::to_mesh(test::boundary(stairs));
+  const auto parts = [](const DefaultMesh& given) {
+    const SurfaceSnapshot surface = make_snapshot(given);
+    std::vector<Index> part(static_cast<std::size_t>(surface.face_count()), 0);
+    CreasePartOptions options;
+    options.least = 6;
+    split_at_creases(surface, border_costs(surface), part, options);
+    return part;
+  };
+  const std::vector<Index> lying = parts(mesh);
+  for (const double angle : {0.4, 1.1, 2.3}) CHECK(parts(test::rotated(mesh, {3, 4, 8}, angle)) == lying);
+}
+
 TEST_CASE("what a crease costs is a matter of its angle, not of the faces' size") {
   // As many vertices as coarse surfaces have, and four times as many.
   const double coarse = ring_cost(box_on_box(2)), fine = ring_cost(box_on_box(4));
