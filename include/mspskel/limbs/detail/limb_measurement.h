@@ -81,8 +81,8 @@ class LimbMeasurement {
     m.carrier_half_chord = mean_of_logarithms(beside, carrier_chords);
     m.carrier_half_thickness = value_at_rank(carrier_chords, 0.25);
     m.msp_ratio = std::max(1.0, mean_perimeter(carrier) * sliced / perimeter);
-    // A spike that noise or a slit leaves on something thick is no twig, however thin it is. Beside a fold most
-    // chords end in the fold, and some lead on into what is thick.
+    // A spike that noise or a slit leaves on something thick is no twig, however thin it is. Beside a fold
+    // most chords end in the fold, and some lead on into what is thick.
     if (!(m.depth > kLeastTipDepth * own_smallest(value_at_rank(carrier_chords, 0.75)))) return std::nullopt;
     if (!set_end(tip, own)) return std::nullopt;
     return found;
