@@ -43,6 +43,7 @@ class LimbCompletion {
   Index run() {
     constexpr int kRounds = 8;
     constexpr double kLeft = 0.25;  // of its reach: less is left where another arc stands for the part
+    mark_ends();
     Index added = reach_tips();
     added += reach_plates();
     mark_whole_ends();
@@ -240,23 +241,29 @@ class LimbCompletion {
   // Without those in the ends of other limbs: an arc that began there would take the leaf from its limb. What
   // goes on from the end of a limb's own arc does begin there.
   LimbWays::NearPoints without_ends(LimbWays::NearPoints points, Index v) const {
-    constexpr double kEndOfLimb = 2;  // half widths
-    const ArcLeaves leaves(graph_, graph_.incidence());
-    const std::vector<std::size_t> leaf = leaves_of_tips(graph_, leaves, tips_);
     const auto ends_other_limb = [&](const std::pair<double, GraphPoint>& near) {
       const GraphPoint& point = near.second;
-      for (std::size_t t = 0; t < tips_.size(); ++t) {
-        if (leaf[t] == kNoLeaf) continue;
-        const auto& [arc, joint, tip] = leaves.leaf[leaf[t]];
-        if ((point.hub == tip || point.arc == arc) && graph_.arc_of_vertex[v] != arc &&
-            graph_.hub_of_vertex[v] != tip &&
-            (point.position - graph_.hub_position[tip]).norm() < kEndOfLimb * tips_[t].measures.half_width)
-          return true;
-      }
-      return false;
+      const auto is_near = [&](Index hub) {
+        return hub < static_cast<Index>(reach_of_end_.size()) && graph_.hub_of_vertex[v] != hub &&
+               (point.position - graph_.hub_position[hub]).norm() < reach_of_end_[hub];
+      };
+      if (point.hub != kNone) return is_near(point.hub);
+      const auto& hub = graph_.arcs[point.arc].hub;
+      return graph_.arc_of_vertex[v] != point.arc && (is_near(hub[0]) || is_near(hub[1]));
     };
     points.erase(std::remove_if(points.begin(), points.end(), ends_other_limb), points.end());
     return points;
+  }
+
+  // How far from each hub a limb ends that was told before and has its leaf arc there.
+  void mark_ends() {
+    constexpr double kEndOfLimb = 3;  // half widths
+    reach_of_end_.assign(graph_.hub_position.size(), 0.0);
+    const ArcLeaves leaves(graph_, graph_.incidence());
+    const std::vector<std::size_t> leaf = leaves_of_tips(graph_, leaves, tips_);
+    for (std::size_t t = 0; t < tips_.size(); ++t)
+      if (leaf[t] != kNoLeaf)
+        reach_of_end_[leaves.leaf[leaf[t]].tip] = kEndOfLimb * tips_[t].measures.half_width;
   }
 
   bool try_limb(Index v, double half_width) {
@@ -309,6 +316,7 @@ class LimbCompletion {
   UncoveredSurface uncovered_;
   std::vector<bool> in_whole_end_;  // per vertex, of a plate or a head that has its arc
   std::vector<Index> hub_component_;
+  std::vector<double> reach_of_end_;  // per hub that was there before
 };
 
 }  // namespace detail
