@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "mspskel/mesh/detail/component_extents.h"
+#include "mspskel/mesh/component_extents.h"
 #include "mspskel/mesh/subdivide_surface.h"
 #include "mspskel/render/render.h"
 #include "mspskel/repair/unite_shells.h"
@@ -40,7 +40,7 @@ inline DefaultMesh united(const std::vector<Pipe>& pipes, double edge) {
   const SurfaceSnapshot sparse = make_snapshot(to_mesh(solid.soup));
   SubdivisionOptions options;
   options.enough = 1'000'000;
-  options.longest = 2 * edge / detail::component_extents(sparse)[0] / sparse.frame.scale;
+  options.longest = 2 * edge / component_extents(sparse)[0] / sparse.frame.scale;
   return to_mesh(to_polygon_soup(subdivide_surface(sparse, options).surface));
 }
 

@@ -12,10 +12,6 @@ namespace mspskel {
 // A piece shorter than this share of its component's extent is a stub.
 inline constexpr double kLeastPieceLength = 0.1;
 
-// Per component the greatest distance of a vertex from the one that is farthest from the mean of all: at
-// least half the greatest distance between two. Normalised units. O(vertices).
-std::vector<double> component_extents(const SurfaceSnapshot& surface);
-
 struct UselessPieces {
   Index stubs = 0;       // components whose piece is shorter than kLeastPieceLength of their extent
   Index on_surface = 0;  // nodes that lie on the surface, within rounding of their component's extent

@@ -6,7 +6,7 @@
 #include "mspskel/base/linkage.h"
 #include "mspskel/limbs/detail/bare_plates.h"
 #include "mspskel/limbs/detail/slender_parts.h"
-#include "mspskel/mesh/detail/component_extents.h"
+#include "mspskel/mesh/component_extents.h"
 #include "mspskel/mesh/subdivide_surface.h"
 #include "mspskel/skeleton/detail/placed_skeleton.h"
 #include "mspskel/solid/detail/ball_tree.h"
@@ -99,7 +99,7 @@ MSPSKEL_INLINE std::vector<UncoveredPart> find_uncovered_parts(const SurfaceSnap
   std::vector<Index> beyond;
   for (Index v = 0; v < surface.vertex_count(); ++v)
     if (outside[v] > 0) beyond.push_back(v);
-  const std::vector<double> extent = detail::component_extents(surface);
+  const std::vector<double> extent = component_extents(surface);
   std::vector<UncoveredPart> found;
   // The balls are the body, so that what is beyond them may be nearly all.
   for (const detail::SlenderPart& part : detail::slender_parts(

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "mspskel/base/linkage.h"
-#include "mspskel/mesh/detail/component_extents.h"
+#include "mspskel/mesh/component_extents.h"
 
 namespace mspskel {
 namespace detail {

@@ -9,6 +9,7 @@
 #include "mspskel/arcs/detail/polyline_ends.h"
 #include "mspskel/arcs/detail/single_arc.h"
 #include "mspskel/base/linkage.h"
+#include "mspskel/mesh/component_extents.h"
 #include "mspskel/mesh/detail/box_direction.h"
 #include "mspskel/skeleton/useless_pieces.h"
 #include "mspskel/solid/detail/axis_stretch.h"

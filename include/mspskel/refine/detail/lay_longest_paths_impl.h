@@ -9,6 +9,7 @@
 #include "mspskel/arcs/detail/polyline_ends.h"
 #include "mspskel/arcs/detail/single_arc.h"
 #include "mspskel/base/linkage.h"
+#include "mspskel/mesh/component_extents.h"
 #include "mspskel/mesh/detail/solid_moments.h"
 #include "mspskel/mesh/inner_distance.h"
 #include "mspskel/skeleton/useless_pieces.h"

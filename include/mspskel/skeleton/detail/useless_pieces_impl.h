@@ -1,28 +1,10 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-
 #include "mspskel/base/linkage.h"
+#include "mspskel/mesh/component_extents.h"
 
 namespace mspskel {
 namespace detail {
-
-// Per component the vertex farthest from the component's own point.
-inline std::vector<Index> farthest_of_components(const SurfaceSnapshot& surface,
-                                                 const std::vector<Vector3>& from) {
-  std::vector<Index> farthest(from.size(), kNone);
-  std::vector<double> most(from.size(), -1.0);
-  for (Index v = 0; v < surface.vertex_count(); ++v) {
-    const Index c = surface.component[v];
-    if (c == kNone) continue;
-    const double square = (surface.position[v] - from[c]).squaredNorm();
-    if (!(square > most[c])) continue;
-    most[c] = square;
-    farthest[c] = v;
-  }
-  return farthest;
-}
 
 // Per node the component of its piece; kNone where no vertex maps to the piece.
 inline std::vector<Index> components_of_nodes(const SurfaceSnapshot& surface, const CurveSkeleton& skeleton) {
@@ -42,23 +24,6 @@ inline std::vector<Index> components_of_nodes(const SurfaceSnapshot& surface, co
 }
 
 }  // namespace detail
-
-MSPSKEL_INLINE std::vector<double> component_extents(const SurfaceSnapshot& surface) {
-  std::vector<Vector3> from(static_cast<std::size_t>(surface.component_count), Vector3::Zero());
-  std::vector<double> count(from.size(), 0.0);
-  for (Index v = 0; v < surface.vertex_count(); ++v)
-    if (surface.component[v] != kNone) {
-      from[surface.component[v]] += surface.position[v];
-      ++count[surface.component[v]];
-    }
-  for (std::size_t c = 0; c < from.size(); ++c) from[c] /= count[c];
-  const std::vector<Index> end = detail::farthest_of_components(surface, from);
-  for (std::size_t c = 0; c < from.size(); ++c) from[c] = surface.position[end[c]];
-  const std::vector<Index> other = detail::farthest_of_components(surface, from);
-  std::vector<double> extent(from.size());
-  for (std::size_t c = 0; c < from.size(); ++c) extent[c] = (surface.position[other[c]] - from[c]).norm();
-  return extent;
-}
 
 MSPSKEL_INLINE UselessPieces find_useless_pieces(const SurfaceSnapshot& surface,
                                                  const CurveSkeleton& skeleton) {
