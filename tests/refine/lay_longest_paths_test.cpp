@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "mspskel/extract_skeleton.h"
+#include "mspskel/mesh/component_extents.h"
 #include "mspskel/skeleton/check_skeleton.h"
 #include "mspskel/skeleton/useless_pieces.h"
 #include "mspskel/solid/detail/inner_graph.h"
